@@ -31,6 +31,10 @@ target_compile_options(s2s_flags INTERFACE
   $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic -Wshadow>
   $<BUILD_INTERFACE:$<$<BOOL:${S2S_WARNINGS_AS_ERRORS}>:-Werror>>
   $<BUILD_INTERFACE:$<$<BOOL:${S2S_PCH}>:-fpch-preprocess>>)
+if(S2S_PCH)
+  # Programs too: the precompiled header they share with the libraries must be made with the same flag.
+  target_compile_options(s2s_flags INTERFACE $<BUILD_INTERFACE:-fPIC>)
+endif()
 if(S2S_SANITIZE)
   target_compile_options(s2s_flags INTERFACE $<BUILD_INTERFACE:-fsanitize=${S2S_SANITIZE}>
                          $<BUILD_INTERFACE:-fno-sanitize-recover=all>)

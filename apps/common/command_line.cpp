@@ -20,13 +20,11 @@ int run(CLI::App& app, int argc, char** argv, const std::function<int()>& body) 
   app.set_version_flag("--version", S2S_VERSION);
   try {
     app.parse(argc, argv);
+    return body();
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);
     std::cerr << app.get_name() << ": " << e.what() << "\nRun '" << app.get_name() << " --help' for all options.\n";
     return kUsageError;
-  }
-  try {
-    return body();
   } catch (const core::ConfigError& e) {
     return report(app, e, kUsageError);
   } catch (const core::InputError& e) {
