@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "s2s/map/map_point.h"
+#include "s2s/products/height_grid.h"
+
+namespace s2s::products {
+
+struct SeabedGridOptions {
+  double cell_m = 0.5;
+  int minPoints = 3;             ///< soundings a cell needs
+  double minDepth_m = 0.3;       ///< soundings nearer to the water surface are not used
+  double flatSpread_m = 0.6;     ///< a cell whose soundings span more than this holds more than seabed
+  double window_m = 0.4;         ///< height of the layer in which the seabed of such a cell is sought
+  double minSeabedShare = 0.25;  ///< share of such a cell's weight that the layer must hold, else it is a wall
+  double maxStep_m = 1.0;        ///< a cell that differs more from its neighbours' median is no seabed
+  double sigmaFloor_m = 0.02;    ///< smallest standard deviation that a single sounding is believed to have
+  int maxCells = 100'000'000;    ///< a larger grid is refused
+};
+
+/// What became of the soundings and cells.
+struct SeabedGridStatistics {
+  std::uint64_t soundings = 0;   ///< offered, of the sonar layers
+  std::uint64_t tooShallow = 0;  ///< of these: above `waterHeight_m - minDepth_m`
+  std::uint64_t notFinite = 0;
+  std::uint64_t cells = 0;      ///< with a height
+  std::uint64_t fewPoints = 0;  ///< cells with fewer than `minPoints`
+  std::uint64_t walls = 0;      ///< cells that hold nothing but wall
+  std::uint64_t steps = 0;      ///< cells that disagreed with their neighbours
+  double area_m2 = 0;
+  double minHeight_m = 0, maxHeight_m = 0;
+};
+
+/// Grids the seabed from the soundings of the sonar layers (stereo, both line-scans); LiDAR points are passed over.
+///
+/// Each cell keeps a histogram of its soundings' heights (1 cm), so memory follows the area and not the number of
+/// soundings. The height is the median weighted by 1/sigma². Where a cell spans more than `flatSpread_m`, as at a quay
+/// wall, it is the weighted median inside the lowest layer of `window_m` that is at least half as dense as the densest:
+/// neither the wall above nor a few false echoes below move it. The stated sigma is
+/// sqrt(s²/n + v): s the scatter about the median (1.4826 MAD), n the soundings, v the weighted mean of the soundings'
+/// own variances. v is not divided by n, since mounting, pose and elevation errors are common to neighbouring
+/// soundings.
+class SeabedGridder {
+ public:
+  /// @param waterHeight_m height of the water surface in the map frame
+  SeabedGridder(const SeabedGridOptions& options, double waterHeight_m);
+
+  void add(const map::MapPoint& point);
+
+  /// The grid of everything added so far; it may have no cells.
+  /// @throws core::OutputError if it would have more than `maxCells`
+  HeightGrid grid();
+  const SeabedGridStatistics& statistics() const { return statistics_; }
+
+ private:
+  struct Bin {
+    int height_cm = 0;
+    std::uint32_t count = 0;
+    double weight = 0;          ///< sum of 1/sigma²
+    double weightedHeight = 0;  ///< sum of height/sigma²
+  };
+  using Cell = std::vector<Bin>;  ///< in order of height
+  struct Estimate {
+    double height_m = 0, sigma_m = 0;
+    std::uint32_t count = 0;
+  };
+  enum class Verdict { Seabed, FewPoints, Wall };
+
+  Verdict estimate(const Cell& cell, Estimate& result) const;
+  Cell seabedLayer(const Cell& cell) const;
+  void removeSteps(HeightGrid& grid);
+
+  SeabedGridOptions options_;
+  double ceiling_m_;
+  std::unordered_map<std::uint64_t, Cell> cells_;
+  SeabedGridStatistics statistics_;
+};
+
+}  // namespace s2s::products
