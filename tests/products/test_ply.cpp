@@ -180,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadPly{"ListTooLong",
                kAscii + "element face 1\nproperty list int int vertex_indices\nend_header\n1 2 3\n4 5 6\n-3 0 1 1\n",
                "impossible length", ":1"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& fault) { return fault.param.name; });
 
 TEST(Ply, MissingFile_IsAnInputError) {
   EXPECT_THAT(errorText<core::InputError>([] { readPlyMesh("/nowhere/x.ply"); }), HasSubstr("/nowhere/x.ply"));

@@ -76,10 +76,21 @@ std::array<double, 6> geoTransform(const HeightGrid& grid) {
   return {grid.west_m, grid.cell_m, 0, grid.south_m + grid.rows * grid.cell_m, 0, -grid.cell_m};
 }
 
+/// BAG demands a reference that leads to geographic coordinates, and GDAL refuses a local one. This is a stand-in that
+/// keeps metres as metres and says so in its name.
+const char* bagCrsWkt() {
+  return R"wkt(PROJCS["Seabed-to-Sky map frame, NOT georeferenced (stand-in around 0 N 0 E)",)wkt"
+         R"wkt(GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],)wkt"
+         R"wkt(PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],)wkt"
+         R"wkt(PARAMETER["latitude_of_origin",0],PARAMETER["central_meridian",0],PARAMETER["scale_factor",1],)wkt"
+         R"wkt(PARAMETER["false_easting",0],PARAMETER["false_northing",0],UNIT["metre",1],)wkt"
+         R"wkt(AXIS["Easting",EAST],AXIS["Northing",NORTH]])wkt";
+}
+
 /// Fills a dataset that has room for `bands` of the grid's three bands.
-bool fill(GDALDataset& dataset, const HeightGrid& grid, int bands) {
+bool fill(GDALDataset& dataset, const HeightGrid& grid, const std::string& crsWkt, int bands) {
   auto transform = geoTransform(grid);
-  bool good = dataset.SetProjection(localCrsWkt().c_str()) == CE_None;
+  bool good = dataset.SetProjection(crsWkt.c_str()) == CE_None;
   good = good && dataset.SetGeoTransform(transform.data()) == CE_None;
   good = good && writeBand(dataset, 1, "height_m", northUp(grid, grid.height_m));
   good = good && writeBand(dataset, 2, "sigma_m", northUp(grid, grid.sigma_m));
@@ -128,7 +139,7 @@ void writeGeoTiff(const std::string& path, const HeightGrid& grid) {
   Dataset dataset(driver == nullptr ? nullptr
                                     : driver->Create(file.temporaryPath().c_str(), grid.columns, grid.rows, 3,
                                                      GDT_Float32, options.List()));
-  if (!dataset || !fill(*dataset, grid, 3)) failWriting(path, messages);
+  if (!dataset || !fill(*dataset, grid, localCrsWkt(), 3)) failWriting(path, messages);
   dataset->SetMetadataItem("AREA_OR_POINT", "Area");
   dataset.reset();
   if (CPLGetLastErrorType() >= CE_Failure) failWriting(path, messages);
@@ -146,7 +157,7 @@ void writeBag(const std::string& path, const HeightGrid& grid, core::TimeNs surv
     throw core::OutputError("this GDAL cannot write BAG files", path,
                             "install Debian's libgdal32 with gdal-plugins, or switch the product off");
   const Dataset source(memory->Create("", grid.columns, grid.rows, 2, GDT_Float32, nullptr));
-  if (!source || !fill(*source, grid, 2)) failWriting(path, messages);
+  if (!source || !fill(*source, grid, bagCrsWkt(), 2)) failWriting(path, messages);
   const std::string date = core::formatUtc(surveyTime).substr(0, 10);
   CPLStringList options;
   options.SetNameValue("VAR_DATE", date.c_str());
@@ -154,6 +165,7 @@ void writeBag(const std::string& path, const HeightGrid& grid, core::TimeNs surv
   options.SetNameValue("VAR_TITLE", "Seabed grid by Seabed-to-Sky");
   options.SetNameValue("VAR_ABSTRACT",
                        "Heights of the seabed, z up, in a local frame with its origin at the first keyframe");
+  options.SetNameValue("VAR_VERT_UNCERT_CODE", "productUncert");
   options.SetNameValue("VAR_VERT_WKT",
                        "VERT_CS[\"Map frame height\",VERT_DATUM[\"First keyframe\",2005],"
                        "UNIT[\"metre\",1],AXIS[\"Height\",UP]]");

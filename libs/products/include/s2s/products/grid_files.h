@@ -15,7 +15,8 @@ std::string localCrsWkt();
 /// @throws core::OutputError
 void writeGeoTiff(const std::string& path, const HeightGrid& grid);
 
-/// BAG (Bathymetric Attributed Grid): elevation (z up) and uncertainty. A BAG names its elevation as of the map frame.
+/// BAG (Bathymetric Attributed Grid): elevation (z up, map frame) and uncertainty. The format has no place for a local
+/// reference, so it names a Transverse Mercator stand-in around 0 N 0 E whose name says that it is not georeferenced.
 /// @param surveyTime goes into the metadata as the date
 /// @throws core::OutputError, also if the grid has no cells or GDAL was built without BAG
 void writeBag(const std::string& path, const HeightGrid& grid, core::TimeNs surveyTime);
