@@ -41,45 +41,63 @@ Points trim(Points points, double share) {
   return {points.begin() + cut, points.end() - cut};
 }
 
+void requireEnough(const Points& points, const char* what) {
+  if (points.size() >= kMinPoints) return;
+  throw core::InputError("only " + std::to_string(points.size()) + " " + what + " points lie on the wall, " +
+                             std::to_string(kMinPoints) + " are needed",
+                         "", "check the ends of the wall and the half width, which are in metres in the map frame");
+}
+
 Points selectAndTrim(const Points& cloud_map, const core::Isometry& T_wall_map, const WallOptions& options,
                      double length_m, double minHeight_m, const char* what) {
   Points points = trim(select(cloud_map, T_wall_map, options, length_m, minHeight_m), options.trimShare);
-  if (points.size() < kMinPoints)
-    throw core::InputError("only " + std::to_string(points.size()) + " " + what + " points lie on the wall, " +
-                               std::to_string(kMinPoints) + " are needed",
-                           "", "check the ends of the wall and the half width, which are in metres in the map frame");
+  requireEnough(points, what);
   return points;
 }
 
-/// Total-least-squares line of points in (x, y): centroid and direction angle in (-90°, 90°].
-void fitLine(const Points& points, Eigen::Vector2d& centroid, double& angle_rad) {
-  centroid.setZero();
-  for (const auto& p : points) centroid += p.head<2>();
-  centroid /= static_cast<double>(points.size());
-  double xx = 0, xy = 0, yy = 0;
-  for (const auto& p : points) {
-    const Eigen::Vector2d d = p.head<2>() - centroid;
-    xx += d.x() * d.x();
-    xy += d.x() * d.y();
-    yy += d.y() * d.y();
+double medianMagnitude(const std::vector<double>& values) {
+  std::vector<double> magnitudes;
+  magnitudes.reserve(values.size());
+  for (const double v : values) magnitudes.push_back(std::abs(v));
+  std::sort(magnitudes.begin(), magnitudes.end());
+  return percentile(magnitudes, 0.5);
+}
+
+/// One step of iteratively reweighted least squares for the line y = offset + slope x with Huber's loss. The loss is
+/// convex, so the line it ends at does not depend on where it began; trimming by y would stop at any small slope.
+void improveLine(const Points& points, double& offset_m, double& slope) {
+  std::vector<double> residuals;
+  residuals.reserve(points.size());
+  for (const auto& p : points) residuals.push_back(p.y() - offset_m - slope * p.x());
+  const double limit = 1.345 * 1.4826 * medianMagnitude(residuals);  // Huber's constant times the robust deviation
+  double w = 0, wx = 0, wy = 0, wxx = 0, wxy = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double r = std::abs(residuals[i]), weight = r <= limit ? 1 : limit / r;
+    const double x = points[i].x(), y = points[i].y();
+    w += weight;
+    wx += weight * x;
+    wy += weight * y;
+    wxx += weight * x * x;
+    wxy += weight * x * y;
   }
-  angle_rad = 0.5 * std::atan2(2 * xy, xx - yy);
+  const double determinant = w * wxx - wx * wx;
+  if (determinant <= 0) return;  // all at one place along the wall: no slope to be had
+  slope = (w * wxy - wx * wy) / determinant;
+  offset_m = (wy - slope * wx) / w;
 }
 
 /// Turns and shifts the wall's line onto the LiDAR points; the middle moves only across the wall.
 void refine(const Points& lidar_map, const WallOptions& options, Eigen::Vector2d& middle, double& yaw_rad,
             double length_m) {
-  constexpr int kMaxRounds = 20;
-  for (int round = 0; round < kMaxRounds; ++round) {
+  constexpr int kRounds = 5, kSteps = 20;  // a round selects the points anew about the better line
+  for (int round = 0; round < kRounds; ++round) {
     const core::Isometry T_wall_map = wallFrame(middle, yaw_rad, options.waterHeight_m);
-    const Points points = selectAndTrim(lidar_map, T_wall_map, options, length_m, options.waterHeight_m, "LiDAR");
-    Eigen::Vector2d centroid;
-    double angle_rad = 0;
-    fitLine(points, centroid, angle_rad);
-    const double across_m = centroid.y() - std::tan(angle_rad) * centroid.x();
-    middle += across_m * Eigen::Vector2d(-std::sin(yaw_rad), std::cos(yaw_rad));
-    yaw_rad += angle_rad;
-    if (std::abs(angle_rad) < 1e-6 && std::abs(across_m) < 1e-5) return;
+    const Points points = select(lidar_map, T_wall_map, options, length_m, options.waterHeight_m);
+    requireEnough(points, "LiDAR");
+    double offset_m = 0, slope = 0;
+    for (int step = 0; step < kSteps; ++step) improveLine(points, offset_m, slope);
+    middle += offset_m * Eigen::Vector2d(-std::sin(yaw_rad), std::cos(yaw_rad));
+    yaw_rad += std::atan(slope);
   }
 }
 

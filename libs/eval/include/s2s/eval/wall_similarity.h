@@ -44,11 +44,12 @@ struct WallReport {
 
 /// The paper's four metrics of two point clouds of one wall.
 ///
-/// Choices where the paper is silent: the origin is the middle of the segment on the LiDAR's line (total least squares,
-/// repeated on the trimmed points until it stands); a correspondence is a sonar point with the LiDAR point nearest to
-/// it in (x, y), since above and below water share no z, and its similarity is the cosine of the angle between the two
-/// position vectors in the wall's frame; width is the largest minus the smallest y after trimming; the density is that
-/// of y, with Gaussian kernels and Scott's bandwidth for each cloud, at bin centres over the joint range of both.
+/// Choices where the paper is silent: the origin is the middle of the segment on the LiDAR's line (Huber's
+/// robust regression of y on x over the points above the water); a correspondence is a sonar point with the LiDAR point
+/// nearest to it in (x, y), since above and below water share no z, and its similarity is the cosine of the angle
+/// between the two position vectors in the wall's frame; width is the largest minus the smallest y after trimming; the
+/// density is that of y, with Gaussian kernels and Scott's bandwidth for each cloud, at bin centres over the joint
+/// range of both.
 /// @throws core::InputError if the segment has no length or a cloud has fewer than 20 points on it
 WallReport compareWall(const std::vector<Eigen::Vector3d>& lidar_map, const std::vector<Eigen::Vector3d>& sonar_map,
                        const WallOptions& options);
