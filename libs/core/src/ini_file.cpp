@@ -156,7 +156,8 @@ void IniFile::rejectUnread() const {
 std::string IniFile::where(const std::string& section, const std::string& key) const {
   const auto& entries = this->section(section);
   const auto found = entries.find(key);
-  const std::string line = found != entries.end() && found->second.line > 0 ? ":" + std::to_string(found->second.line) : "";
+  const std::string line =
+      found != entries.end() && found->second.line > 0 ? ":" + std::to_string(found->second.line) : "";
   return name_ + line + " [" + section + "] " + key;
 }
 

@@ -16,7 +16,7 @@ template <class Number>
 bool parseWhole(const std::string& text, Number& value) {
   const char* begin = text.data();
   const char* end = begin + text.size();
-  if (begin != end && *begin == '+') ++begin;
+  if (end - begin > 1 && begin[0] == '+' && begin[1] != '-') ++begin;
   Number parsed{};
   const auto result = std::from_chars(begin, end, parsed);
   if (result.ec != std::errc() || result.ptr != end) return false;
@@ -84,8 +84,7 @@ std::string printDouble(double value) {
 }
 
 OptionTable& OptionTable::addParsed(const std::string& key, const std::string& help, const std::string& expected,
-                                    std::function<bool(const std::string&)> parse,
-                                    std::function<std::string()> print) {
+                                    std::function<bool(const std::string&)> parse, std::function<std::string()> print) {
   options_.push_back({key, help, expected, std::move(parse), std::move(print)});
   return *this;
 }
@@ -182,8 +181,7 @@ void OptionTable::load(IniFile& ini, const std::string& section) {
 
 std::string OptionTable::print(const std::string& section) const {
   std::string text = "[" + section + "]\n";
-  for (const auto& option : options_)
-    text += "// " + option.help + "\n" + option.key + " = " + option.print() + "\n";
+  for (const auto& option : options_) text += "// " + option.help + "\n" + option.key + " = " + option.print() + "\n";
   return text;
 }
 

@@ -1,8 +1,10 @@
 #include "s2s/core/time.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <limits>
 
 #include "s2s/core/error.h"
 
@@ -27,13 +29,23 @@ bool parseFraction(const std::string& digits, TimeNs& ns) {
   return true;
 }
 
+std::string dateText(std::time_t seconds) {
+  std::tm tm{};
+  gmtime_r(&seconds, &tm);
+  char text[40];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S", &tm);
+  return text;
+}
+
 bool parseUnixTime(const std::string& text, TimeNs& t) {
   const auto dot = text.find('.');
   const std::string whole = text.substr(0, dot);
   if (whole.empty() || whole.size() > 10 || whole.find_first_not_of("0123456789") != std::string::npos) return false;
   TimeNs fraction = 0;
   if (dot != std::string::npos && !parseFraction(text.substr(dot + 1), fraction)) return false;
-  t = std::stoll(whole) * kNsPerSecond + fraction;
+  const std::int64_t seconds = std::stoll(whole);
+  if (seconds >= std::numeric_limits<TimeNs>::max() / kNsPerSecond) return false;
+  t = seconds * kNsPerSecond + fraction;
   return true;
 }
 
@@ -53,14 +65,17 @@ bool parseUtc(std::string text, TimeNs& t) {
     return false;
   tm.tm_year -= 1900;
   tm.tm_mon -= 1;
-  t = static_cast<TimeNs>(timegm(&tm)) * kNsPerSecond + fraction;
+  const std::time_t seconds = timegm(&tm);  // carries a 13th month or a 61st second over: such a text is no time
+  if (dateText(seconds) != text) return false;
+  t = static_cast<TimeNs>(seconds) * kNsPerSecond + fraction;
   return true;
 }
 
 }  // namespace
 
 TimeNs fromMrptTime(mrpt::Clock::time_point t) {
-  return (t.time_since_epoch().count() - kTicksFrom1601To1970) * kNsPerTick;
+  constexpr std::int64_t kMostTicks = std::numeric_limits<TimeNs>::max() / kNsPerTick;
+  return std::clamp(t.time_since_epoch().count() - kTicksFrom1601To1970, -kMostTicks, kMostTicks) * kNsPerTick;
 }
 
 mrpt::Clock::time_point toMrptTime(TimeNs t) {
@@ -79,13 +94,9 @@ std::string formatUnixTime(TimeNs t) {
 
 std::string formatUtc(TimeNs t) {
   const std::int64_t s = floorDiv(t, kNsPerSecond);
-  const std::time_t seconds = static_cast<std::time_t>(s);
-  std::tm tm{};
-  gmtime_r(&seconds, &tm);
-  char date[40], text[60];
-  std::strftime(date, sizeof date, "%Y-%m-%dT%H:%M:%S", &tm);
-  std::snprintf(text, sizeof text, "%s.%03lldZ", date, static_cast<long long>((t - s * kNsPerSecond) / 1'000'000));
-  return text;
+  char fraction[20];
+  std::snprintf(fraction, sizeof fraction, ".%03lldZ", static_cast<long long>((t - s * kNsPerSecond) / 1'000'000));
+  return dateText(static_cast<std::time_t>(s)) + fraction;
 }
 
 TimeNs parseTime(const std::string& text, const std::string& what) {

@@ -15,8 +15,8 @@ Matrix6 xyzyprByBody(const Isometry& T) {
   const double pitch = std::asin(std::clamp(-R(2, 0), -1.0, 1.0));
   const double roll = std::atan2(R(2, 1), R(2, 2));
   Eigen::Matrix3d bodyByYpr;
-  bodyByYpr << -std::sin(pitch), 0, 1,                                       //
-      std::cos(pitch) * std::sin(roll), std::cos(roll), 0,                   //
+  bodyByYpr << -std::sin(pitch), 0, 1,                      //
+      std::cos(pitch) * std::sin(roll), std::cos(roll), 0,  //
       std::cos(pitch) * std::cos(roll), -std::sin(roll), 0;
   Matrix6 J = Matrix6::Zero();
   J.topLeftCorner<3, 3>() = R;
@@ -78,7 +78,8 @@ Eigen::Matrix3d rightJacobianSo3(const Eigen::Vector3d& w) {
   const Eigen::Matrix3d S = skew(w);
   if (angle < 1e-4) return Eigen::Matrix3d::Identity() - 0.5 * S + S * S / 6.0;
   const double a2 = angle * angle;
-  return Eigen::Matrix3d::Identity() - (1 - std::cos(angle)) / a2 * S + (angle - std::sin(angle)) / (a2 * angle) * S * S;
+  return Eigen::Matrix3d::Identity() - (1 - std::cos(angle)) / a2 * S +
+         (angle - std::sin(angle)) / (a2 * angle) * S * S;
 }
 
 Isometry interpolate(const Isometry& T0, const Isometry& T1, double u) {

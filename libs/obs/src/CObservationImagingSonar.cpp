@@ -69,23 +69,26 @@ std::uint32_t CObservationImagingSonar::maxSample() const {
 void CObservationImagingSonar::checkConsistent() const {
   const auto require = [this](bool good, const std::string& what) {
     if (!good)
-      throw core::InputError(what, "sonar ping of '" + sensorLabel + "'", "the record is damaged or its writer is at fault");
+      throw core::InputError(what, "sonar ping of '" + sensorLabel + "'",
+                             "the record is damaged or its writer is at fault");
   };
   require(bytesPerSample >= 1 && bytesPerSample <= 4,
           "bytesPerSample is " + std::to_string(bytesPerSample) + ", not 1 to 4");
   require(samples.size() == static_cast<std::size_t>(beamCount) * rangeCount * bytesPerSample,
           std::to_string(samples.size()) + " bytes of samples for " + std::to_string(rangeCount) + " ranges x " +
               std::to_string(beamCount) + " beams x " + std::to_string(bytesPerSample) + " bytes");
-  require(rowGains.empty() || rowGains.size() == rangeCount, std::to_string(rowGains.size()) + " row gains for " +
-                                                                 std::to_string(rangeCount) + " ranges");
+  require(rowGains.empty() || rowGains.size() == rangeCount,
+          std::to_string(rowGains.size()) + " row gains for " + std::to_string(rangeCount) + " ranges");
   require(bearings_rad.size() == beamCount,
           std::to_string(bearings_rad.size()) + " bearings for " + std::to_string(beamCount) + " beams");
   for (const float bearing : bearings_rad)
-    require(std::isfinite(bearing) && std::abs(bearing) <= static_cast<float>(M_PI), "a bearing is not within +-180 deg");
+    require(std::isfinite(bearing) && std::abs(bearing) <= static_cast<float>(M_PI),
+            "a bearing is not within +-180 deg");
   require(strictlyMonotonic(bearings_rad), "the bearings are not strictly monotonic");
   require(std::isfinite(rangeResolution_m) && (rangeResolution_m > 0 || rangeCount == 0),
           "the range resolution is " + std::to_string(rangeResolution_m) + " m");
-  require(std::isfinite(rangeOffset_m) && rangeOffset_m >= 0, "the range offset is " + std::to_string(rangeOffset_m) + " m");
+  require(std::isfinite(rangeOffset_m) && rangeOffset_m >= 0,
+          "the range offset is " + std::to_string(rangeOffset_m) + " m");
   require(verticalAperture_rad >= 0 && verticalAperture_rad <= M_PI, "the vertical aperture is not within 0..180 deg");
   require(bearingModel == BearingModel::Azimuth || bearingModel == BearingModel::Cone, "the bearing model is unknown");
 }
@@ -104,9 +107,11 @@ void CObservationImagingSonar::getDescriptionAsText(std::ostream& o) const {
   o << "  vertical aperture: " << degrees(verticalAperture_rad) << " deg\n";
   o << "  sound speed:       " << soundSpeed_mps << " m/s\n";
   o << "  frequency:         " << 1e-3 * frequency_hz << " kHz\n";
-  o << "  gain:              " << (gain_percent < 0 ? std::string("unknown") : std::to_string(gain_percent) + " %") << "\n";
+  o << "  gain:              " << (gain_percent < 0 ? std::string("unknown") : std::to_string(gain_percent) + " %")
+    << "\n";
   o << "  ping number:       " << pingId << "\n";
-  o << "  device clock:      " << (deviceTime_s < 0 ? std::string("none") : std::to_string(deviceTime_s) + " s") << "\n";
+  o << "  device clock:      " << (deviceTime_s < 0 ? std::string("none") : std::to_string(deviceTime_s) + " s")
+    << "\n";
   o << "  sensor pose on the vehicle: " << sensorPose << "\n";
 }
 
@@ -116,8 +121,8 @@ std::string CObservationImagingSonar::exportTxtHeader() const {
 }
 
 std::string CObservationImagingSonar::exportTxtDataRow() const {
-  std::string row = mrpt::format("%u %u %.6f %.6f %.3f", rangeCount, beamCount, rangeOffset_m, rangeResolution_m,
-                                 soundSpeed_mps);
+  std::string row =
+      mrpt::format("%u %u %.6f %.6f %.3f", rangeCount, beamCount, rangeOffset_m, rangeResolution_m, soundSpeed_mps);
   for (std::size_t beam = 0; beam < beamCount; ++beam) {
     std::uint32_t strongest = 0;
     double range_m = 0;

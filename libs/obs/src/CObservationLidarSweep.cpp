@@ -23,11 +23,12 @@ void CObservationLidarSweep::serializeTo(mrpt::serialization::CArchive& out) con
     packed::write(out, echo.range);
     packed::write(out, echo.reflectivity);
     packed::write(out, echo.signal);
+    packed::write(out, echo.flags);
   }
   packed::write(out, nearInfrared);
   packed::write(out, beamAltitude_rad);
   packed::write(out, beamAzimuth_rad);
-  out << beamOriginOffset_m << T_sensor_lidar;
+  out << beamOriginOffset_m << beamOriginHeight_m << T_sensor_lidar;
   packed::write(out, columnAzimuth_rad);
   packed::write(out, columnTime_ns);
   packed::write(out, rowTime_ns);
@@ -45,11 +46,12 @@ void CObservationLidarSweep::serializeFrom(mrpt::serialization::CArchive& in, st
         packed::read(in, echo.range, "range");
         packed::read(in, echo.reflectivity, "reflectivity");
         packed::read(in, echo.signal, "signal");
+        packed::read(in, echo.flags, "flags");
       }
       packed::read(in, nearInfrared, "nearInfrared");
       packed::read(in, beamAltitude_rad, "beamAltitude_rad");
       packed::read(in, beamAzimuth_rad, "beamAzimuth_rad");
-      in >> beamOriginOffset_m >> T_sensor_lidar;
+      in >> beamOriginOffset_m >> beamOriginHeight_m >> T_sensor_lidar;
       packed::read(in, columnAzimuth_rad, "columnAzimuth_rad");
       packed::read(in, columnTime_ns, "columnTime_ns");
       packed::read(in, rowTime_ns, "rowTime_ns");
@@ -91,6 +93,7 @@ void CObservationLidarSweep::checkConsistent() const {
     requireSize(echo.range.size(), pixelCount(), false, "range");
     requireSize(echo.reflectivity.size(), pixelCount(), true, "reflectivity");
     requireSize(echo.signal.size(), pixelCount(), true, "signal");
+    requireSize(echo.flags.size(), pixelCount(), true, "flags");
   }
   requireSize(nearInfrared.size(), pixelCount(), true, "nearInfrared");
   requireSize(beamAltitude_rad.size(), rowCount, false, "beamAltitude_rad");
@@ -103,10 +106,10 @@ void CObservationLidarSweep::checkConsistent() const {
 
 void CObservationLidarSweep::getDescriptionAsText(std::ostream& o) const {
   CObservation::getDescriptionAsText(o);
-  const std::size_t valid =
-      columnValid.empty() ? columnCount
-                          : static_cast<std::size_t>(std::count_if(columnValid.begin(), columnValid.end(),
-                                                                   [](std::uint8_t v) { return v != 0; }));
+  const std::size_t valid = columnValid.empty()
+                                ? columnCount
+                                : static_cast<std::size_t>(std::count_if(columnValid.begin(), columnValid.end(),
+                                                                         [](std::uint8_t v) { return v != 0; }));
   o << "LiDAR sweep" << (sensorModel.empty() ? "" : " of a " + sensorModel) << "\n";
   o << "  image:            " << rowCount << " beams x " << columnCount << " columns (" << valid << " received), "
     << echoes.size() << " echo(es)\n";
@@ -114,8 +117,8 @@ void CObservationLidarSweep::getDescriptionAsText(std::ostream& o) const {
   o << "  range resolution: " << 1e3 * rangeResolution_m << " mm\n";
   o << "  duration:         " << 1e3 * duration_s() << " ms from the first to the last column\n";
   if (!beamAltitude_rad.empty())
-    o << "  beam altitudes:   " << beamAltitude_rad.front() * 180 / M_PI << " to " << beamAltitude_rad.back() * 180 / M_PI
-      << " deg\n";
+    o << "  beam altitudes:   " << beamAltitude_rad.front() * 180 / M_PI << " to "
+      << beamAltitude_rad.back() * 180 / M_PI << " deg\n";
   o << "  layers:           range" << (!echoes.empty() && !echoes[0].reflectivity.empty() ? ", reflectivity" : "")
     << (!echoes.empty() && !echoes[0].signal.empty() ? ", signal" : "")
     << (!nearInfrared.empty() ? ", near infrared" : "") << "\n";

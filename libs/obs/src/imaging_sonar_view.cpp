@@ -30,7 +30,8 @@ mrpt::img::CImage fanTexture(const CObservationImagingSonar& ping) {
 mrpt::opengl::TTriangle::Vertex fanVertex(const CObservationImagingSonar& ping, std::size_t beam, double range_m) {
   mrpt::opengl::TTriangle::Vertex vertex;
   const double bearing = ping.bearings_rad[beam];
-  vertex.xyzrgba.pt = {static_cast<float>(range_m * std::cos(bearing)), static_cast<float>(range_m * std::sin(bearing)), 0};
+  vertex.xyzrgba.pt = {static_cast<float>(range_m * std::cos(bearing)), static_cast<float>(range_m * std::sin(bearing)),
+                       0};
   vertex.uv.x = (static_cast<float>(beam) + 0.5f) / static_cast<float>(ping.beamCount);
   vertex.uv.y = static_cast<float>((range_m - ping.rangeOffset_m) / (ping.maxRange_m() - ping.rangeOffset_m));
   return vertex;

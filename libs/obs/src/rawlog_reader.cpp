@@ -65,8 +65,7 @@ std::string shortMessage(const std::exception& e) {
 RawlogReader::RawlogReader(const std::string& path) : path_(path) {
   registerClasses();
   std::error_code error;
-  if (!fs::exists(path, error))
-    throw core::InputError("the rawlog does not exist", path, "check the path");
+  if (!fs::exists(path, error)) throw core::InputError("the rawlog does not exist", path, "check the path");
   if (!fs::is_regular_file(path, error))
     throw core::InputError("this is not a file", path, "give the .rawlog file itself");
   stream_ = std::make_unique<Stream>(path);
@@ -117,8 +116,8 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::readRecord() {
       return nullptr;
     }
     if (stream_->ended)
-      return fail(RawlogFault::Kind::TruncatedEnd, "the file ends within a record, after " +
-                                                       std::to_string(stream_->position - start) + " bytes of it");
+      return fail(RawlogFault::Kind::TruncatedEnd,
+                  "the file ends within a record, after " + std::to_string(stream_->position - start) + " bytes of it");
     const std::string message = shortMessage(e);
     const bool unknown = message.find("not registered") != std::string::npos;
     return fail(unknown ? RawlogFault::Kind::UnknownClass : RawlogFault::Kind::DamagedRecord, message);

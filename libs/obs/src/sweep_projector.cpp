@@ -6,7 +6,9 @@ namespace s2s::obs {
 
 void SweepProjector::prepare(const CObservationLidarSweep& sweep) {
   resolution_m_ = static_cast<float>(sweep.rangeResolution_m);
-  offset_m_ = static_cast<float>(sweep.beamOriginOffset_m);
+  originOffset_m_ = static_cast<float>(sweep.beamOriginOffset_m);
+  originHeight_m_ = static_cast<float>(sweep.beamOriginHeight_m);
+  originDistance_m_ = static_cast<float>(std::hypot(sweep.beamOriginOffset_m, sweep.beamOriginHeight_m));
   const core::Isometry T = core::toIsometry(sweep.T_sensor_lidar);
   R_sensor_lidar_ = T.linear().cast<float>();
   t_sensor_lidar_ = T.translation().cast<float>();

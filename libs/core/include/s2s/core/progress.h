@@ -14,7 +14,8 @@ class Progress {
   /// @param out   where to write (usually std::cerr); a null pointer keeps silent
   /// @param label what is being done
   /// @param total amount of work in `unit`; zero or less if unknown
-  /// @param unit  unit of the amount, e.g. "s" of survey: the rate is printed in it per second, for "s" as "x real time"
+  /// @param unit  unit of the amount, e.g. "s" of survey: the rate is printed in it per second, for "s" as "x real
+  /// time"
   Progress(std::ostream* out, std::string label, double total, std::string unit);
   ~Progress();
   Progress(const Progress&) = delete;

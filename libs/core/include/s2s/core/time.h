@@ -13,7 +13,8 @@ using TimeNs = std::int64_t;
 constexpr TimeNs kNsPerSecond = 1'000'000'000;
 
 /// Exact conversions to and from MRPT's 100 ns ticks since 1601 (`mrpt::Clock::toDouble` only resolves 238 ns today).
-/// `toMrptTime` rounds down to a tick.
+/// `toMrptTime` rounds down to a tick. Times outside the years 1678 to 2261, MRPT's invalid time among them, become the
+/// nearest that fits.
 TimeNs fromMrptTime(mrpt::Clock::time_point t);
 mrpt::Clock::time_point toMrptTime(TimeNs t);
 

@@ -27,7 +27,7 @@ class CObservationImagingSonar : public mrpt::obs::CObservation, public mrpt::op
   DEFINE_SERIALIZABLE(CObservationImagingSonar, s2s::obs)
 
  public:
-  std::string sensorModel;        ///< e.g. "Oculus M750d"; free text
+  std::string sensorModel;  ///< e.g. "Oculus M750d"; free text
   mrpt::poses::CPose3D sensorPose;
 
   std::uint32_t beamCount = 0;
@@ -38,19 +38,21 @@ class CObservationImagingSonar : public mrpt::obs::CObservation, public mrpt::op
   /// Gain of each row as the device gave it; empty, or `rangeCount` values.
   std::vector<std::uint32_t> rowGains;
 
-  std::vector<float> bearings_rad;   ///< one a beam, strictly monotonic (rising or falling)
-  double rangeOffset_m = 0;          ///< range of the near edge of the first range bin
-  double rangeResolution_m = 0;      ///< length of a range bin
-  double verticalAperture_rad = 0;   ///< full opening angle across the imaging plane
+  std::vector<float> bearings_rad;  ///< one a beam, strictly monotonic (rising or falling)
+  double rangeOffset_m = 0;         ///< range of the near edge of the first range bin
+  double rangeResolution_m = 0;     ///< length of a range bin
+  double verticalAperture_rad = 0;  ///< full opening angle across the imaging plane
   BearingModel bearingModel = BearingModel::Azimuth;
-  double soundSpeed_mps = 0;         ///< the sound speed by which the device turned time into range; 0 if unknown
-  double frequency_hz = 0;           ///< 0 if unknown
-  double gain_percent = -1;          ///< receiver gain setting; negative if unknown
-  std::uint32_t pingId = 0;          ///< the device's own counter; 0 if it has none
-  double deviceTime_s = -1;          ///< the device's own clock; negative if it gave none
+  double soundSpeed_mps = 0;  ///< the sound speed by which the device turned time into range; 0 if unknown
+  double frequency_hz = 0;    ///< 0 if unknown
+  double gain_percent = -1;   ///< receiver gain setting; negative if unknown
+  std::uint32_t pingId = 0;   ///< the device's own counter; 0 if it has none
+  double deviceTime_s = -1;   ///< the device's own clock; negative if it gave none
 
   /// Range of the centre of a bin, in metres.
-  double binRange_m(std::size_t bin) const { return rangeOffset_m + (static_cast<double>(bin) + 0.5) * rangeResolution_m; }
+  double binRange_m(std::size_t bin) const {
+    return rangeOffset_m + (static_cast<double>(bin) + 0.5) * rangeResolution_m;
+  }
   double maxRange_m() const { return rangeOffset_m + rangeCount * rangeResolution_m; }
 
   /// The sample at a range bin and beam. No bounds check.

@@ -16,14 +16,15 @@ namespace s2s::obs {
 ///
 /// All images are row-major: pixel (row, column) is at index row * columnCount + column.
 ///
-/// Geometry of a pixel with range r (metres, from the beam's origin on a circle of radius n = `beamOriginOffset_m`):
+/// Geometry of a pixel with range r (metres). Its beam starts on a circle of radius a = `beamOriginOffset_m` at the
+/// height b = `beamOriginHeight_m`; the device counts ranges from the circle's centre, n = sqrt(a^2 + b^2) before it:
 ///     azimuth  = columnAzimuth_rad[column]                      (counter-clockwise, 0 = +x)
 ///     theta    = azimuth + beamAzimuth_rad[row]
-///     p_lidar  = ((r - n) cos(altitude) cos(theta) + n cos(azimuth),
-///                 (r - n) cos(altitude) sin(theta) + n sin(azimuth),
-///                 (r - n) sin(altitude))
+///     p_lidar  = ((r - n) cos(altitude) cos(theta) + a cos(azimuth),
+///                 (r - n) cos(altitude) sin(theta) + a sin(azimuth),
+///                 (r - n) sin(altitude) + b)
 ///     p_sensor = T_sensor_lidar p_lidar
-/// as in Ouster's manual; sensors whose beams share one origin have n = 0.
+/// as in Ouster's manual and SDK; sensors whose beams share one origin have a = b = 0.
 ///
 /// `timestamp` is the first column's time (UTC). `sensorPose` is T_vehicle_sensor.
 class CObservationLidarSweep : public mrpt::obs::CObservation, public mrpt::opengl::Visualizable {
@@ -35,6 +36,7 @@ class CObservationLidarSweep : public mrpt::obs::CObservation, public mrpt::open
     std::vector<std::uint32_t> range;
     std::vector<std::uint16_t> reflectivity;  ///< calibrated reflectivity as the device scales it
     std::vector<std::uint16_t> signal;        ///< photons or intensity
+    std::vector<std::uint8_t> flags;          ///< the device's own mark on each return, 0 = none
   };
 
   std::string sensorModel;  ///< e.g. "OS-1-128"; free text
@@ -49,10 +51,11 @@ class CObservationLidarSweep : public mrpt::obs::CObservation, public mrpt::open
   std::vector<Echo> echoes;                 ///< one, or two for dual-return modes (strongest first)
   std::vector<std::uint16_t> nearInfrared;  ///< ambient light; empty or one a pixel
 
-  std::vector<float> beamAltitude_rad;      ///< one a row, positive up
-  std::vector<float> beamAzimuth_rad;       ///< one a row, added to the column's azimuth; empty means zero
+  std::vector<float> beamAltitude_rad;  ///< one a row, positive up
+  std::vector<float> beamAzimuth_rad;   ///< one a row, added to the column's azimuth; empty means zero
   double beamOriginOffset_m = 0;
-  mrpt::poses::CPose3D T_sensor_lidar;      ///< LiDAR coordinates to sensor coordinates
+  double beamOriginHeight_m = 0;
+  mrpt::poses::CPose3D T_sensor_lidar;  ///< LiDAR coordinates to sensor coordinates
 
   std::vector<float> columnAzimuth_rad;     ///< one a column
   std::vector<std::int32_t> columnTime_ns;  ///< one a column, from `timestamp`; empty: all at `timestamp`

@@ -26,7 +26,7 @@ class RawlogWriter {
   RawlogWriter& operator=(const RawlogWriter&) = delete;
 
   /// The observation must not change afterwards: it is held until its turn comes.
-  /// @throws core::InputError if it is older than what was already written, or has no sensor label
+  /// @throws core::InputError if it is older than what was already written, or has no time or no sensor label
   void write(const mrpt::obs::CObservation::Ptr& observation);
 
   /// Writes what is held back and gives the file its name.

@@ -21,9 +21,10 @@ class SweepProjector {
     const Eigen::Vector3f& a = rowTable_[row];
     const Eigen::Vector2f& c = columnTable_[column];
     // cos/sin(azimuth + beamAzimuth) by the addition theorem: a = (cos alt cos az, cos alt sin az, sin alt)
-    const float r = static_cast<float>(rangeCounts) * resolution_m_ - offset_m_;
-    const Eigen::Vector3f p_lidar(r * (a.x() * c.x() - a.y() * c.y()) + offset_m_ * c.x(),
-                                  r * (a.x() * c.y() + a.y() * c.x()) + offset_m_ * c.y(), r * a.z());
+    const float r = static_cast<float>(rangeCounts) * resolution_m_ - originDistance_m_;
+    const Eigen::Vector3f p_lidar(r * (a.x() * c.x() - a.y() * c.y()) + originOffset_m_ * c.x(),
+                                  r * (a.x() * c.y() + a.y() * c.x()) + originOffset_m_ * c.y(),
+                                  r * a.z() + originHeight_m_);
     return R_sensor_lidar_ * p_lidar + t_sensor_lidar_;
   }
 
@@ -31,7 +32,7 @@ class SweepProjector {
   std::vector<float> altitude_, azimuth_, columnAzimuth_;  // geometry the tables were made for
   std::vector<Eigen::Vector3f> rowTable_;
   std::vector<Eigen::Vector2f> columnTable_;
-  float resolution_m_ = 0, offset_m_ = 0;
+  float resolution_m_ = 0, originOffset_m_ = 0, originHeight_m_ = 0, originDistance_m_ = 0;
   Eigen::Matrix3f R_sensor_lidar_ = Eigen::Matrix3f::Identity();
   Eigen::Vector3f t_sensor_lidar_ = Eigen::Vector3f::Zero();
 };
