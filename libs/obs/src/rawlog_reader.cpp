@@ -28,12 +28,13 @@ struct RawlogReader::Stream : public mrpt::io::CStream {
 
   std::size_t Read(void* buffer, std::size_t count) override {
     const int got = gzread(file, buffer, static_cast<unsigned>(count));
-    if (got < static_cast<int>(count)) ended = true;
-    if (got < 0) {
-      int code = 0;
-      zlibError = gzerror(file, &code);
-      return 0;
+    if (got < static_cast<int>(count)) {
+      ended = true;
+      int code = Z_OK;
+      const char* text = gzerror(file, &code);
+      if (code != Z_OK) zlibError = text;
     }
+    if (got < 0) return 0;
     position += static_cast<std::uint64_t>(got);
     return static_cast<std::size_t>(got);
   }
@@ -51,13 +52,25 @@ struct RawlogReader::Stream : public mrpt::io::CStream {
 
 namespace {
 
-/// MRPT's message without the backtrace that it appends.
-std::string shortMessage(const std::exception& e) {
-  std::string text = e.what();
-  if (const auto begin = text.find("Message:"); begin != std::string::npos) text = text.substr(begin + 8);
-  text = text.substr(0, text.find("\n"));
-  const auto first = text.find_first_not_of(" \t");
-  return first == std::string::npos ? "no reason given" : text.substr(first);
+std::string firstLineAfter(const std::string& text, std::size_t begin) {
+  begin = text.find_first_not_of(" \t\n", begin);
+  return begin == std::string::npos ? "no reason given" : text.substr(begin, text.find('\n', begin) - begin);
+}
+
+/// The cause of an MRPT exception: the message of the innermost one that it quotes, without the backtraces, after the
+/// name of the class that did not parse.
+std::string cause(const std::exception& e) {
+  const std::string text = e.what();
+  const std::string quote = "Original exception:", label = "Message:", object = "typed object '";
+  std::string className;
+  if (const auto name = text.find(object); name != std::string::npos) {
+    className = text.substr(name + object.size(), text.find('\'', name + object.size()) - name - object.size());
+    className = className.find(' ') == std::string::npos ? className + ": " : "";  // else it is the stream's name
+  }
+  const auto innermost = text.rfind(quote);
+  std::size_t begin = innermost == std::string::npos ? 0 : innermost + quote.size();
+  if (firstLineAfter(text, begin).rfind("====", 0) == 0) begin = text.find(label, begin) + label.size();
+  return className + firstLineAfter(text, begin);
 }
 
 }  // namespace
@@ -118,7 +131,7 @@ mrpt::serialization::CSerializable::Ptr RawlogReader::readRecord() {
     if (stream_->ended)
       return fail(RawlogFault::Kind::TruncatedEnd,
                   "the file ends within a record, after " + std::to_string(stream_->position - start) + " bytes of it");
-    const std::string message = shortMessage(e);
+    const std::string message = cause(e);
     const bool unknown = message.find("not registered") != std::string::npos;
     return fail(unknown ? RawlogFault::Kind::UnknownClass : RawlogFault::Kind::DamagedRecord, message);
   }
