@@ -1,0 +1,248 @@
+#include "s2s/map/CSeabedSkyMap.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "nearest_cache.h"
+
+namespace s2s::map {
+
+CSeabedSkyMap::CSeabedSkyMap() { resolver_.reset(options_.resolver); }
+
+CSeabedSkyMap::CSeabedSkyMap(const MapOptions& options) : options_(options) { resolver_.reset(options_.resolver); }
+
+CSeabedSkyMap::CSeabedSkyMap(const CSeabedSkyMap& other) : mrpt::maps::CMetricMap() { *this = other; }
+
+CSeabedSkyMap& CSeabedSkyMap::operator=(const CSeabedSkyMap& other) {
+  if (this == &other) return *this;
+  genericMapParams = other.genericMapParams;
+  options_ = other.options_;
+  keyframes_ = other.keyframes_;
+  scans_ = other.scans_;
+  lineScans_ = other.lineScans_;
+  counts_ = other.counts_;
+  thinner_ = other.thinner_;
+  resolver_ = other.resolver_;
+  touch();
+  return *this;
+}
+
+void CSeabedSkyMap::setOptions(const MapOptions& options) {
+  options_ = options;
+  touch();
+}
+
+bool CSeabedSkyMap::addKeyframe(const Keyframe& keyframe) {
+  touch();
+  return keyframes_.add(keyframe);
+}
+
+std::size_t CSeabedSkyMap::setKeyframePoses(const std::map<std::uint64_t, core::Isometry>& T_map_vehicle) {
+  touch();
+  return keyframes_.setPoses(T_map_vehicle);
+}
+
+core::Isometry CSeabedSkyMap::poseAt(core::TimeNs time, const core::Isometry& T_odom_vehicle) const {
+  return keyframes_.poseAt(time, T_odom_vehicle, options_.insertion.interpolation);
+}
+
+core::Isometry CSeabedSkyMap::mapPose(const ScanPose& pose) const {
+  return pose.keyframe ? keyframes_.poseFrom(*pose.keyframe, pose.T_odom_vehicle)
+                       : poseAt(pose.time, pose.T_odom_vehicle);
+}
+
+void CSeabedSkyMap::touch() { nearest_ = makeNearestCache(); }
+
+std::size_t CSeabedSkyMap::insertScan(Layer layer, core::TimeNs time, const core::Isometry& T_odom_vehicle,
+                                      const std::vector<ScanPoint>& points) {
+  return store({layer, time, T_odom_vehicle, std::nullopt}, points);
+}
+
+std::size_t CSeabedSkyMap::insertLineScan(Layer layer, core::TimeNs time, const core::Isometry& T_odom_vehicle,
+                                          const LineScan& scan) {
+  return store({layer, time, T_odom_vehicle, std::nullopt}, scan);
+}
+
+std::size_t CSeabedSkyMap::store(const ScanPose& pose, const std::vector<ScanPoint>& points) {
+  const InsertionOptions& options = options_.insertion;
+  const bool isLidar = pose.layer == Layer::Lidar;
+  const double min2 = options.lidarMinRange_m * options.lidarMinRange_m;
+  const double max2 = options.lidarMaxRange_m * options.lidarMaxRange_m;
+  StoredScan scan;
+  scan.pose = pose;
+  for (const ScanPoint& point : points) {
+    if (!point.p_vehicle.allFinite()) continue;
+    const double range2 = point.p_vehicle.squaredNorm();
+    if (isLidar && (range2 < min2 || range2 > max2)) continue;
+    if (isLidar && options.lidarVoxel_m > 0 &&
+        !thinner_.accept(pose.T_odom_vehicle * point.p_vehicle.cast<double>(), pose.time, options.lidarVoxel_m,
+                         options.lidarVoxelWindow_s))
+      continue;
+    scan.points.push_back(pack(point));
+  }
+  if (scan.points.empty()) return 0;
+  scan.points.shrink_to_fit();
+  counts_[static_cast<std::size_t>(pose.layer)] += scan.points.size();
+  gatherEvidence(scan);
+  scans_.push_back(std::move(scan));
+  touch();
+  return scans_.back().points.size();
+}
+
+std::size_t CSeabedSkyMap::store(const ScanPose& pose, const LineScan& scan) {
+  StoredLineScan stored;
+  stored.pose = pose;
+  stored.T_vehicle_sonar = scan.T_vehicle_sonar;
+  stored.verticalAperture_rad = static_cast<float>(scan.verticalAperture_rad);
+  stored.bearingSigma_rad = static_cast<float>(scan.bearingSigma_rad);
+  stored.bearingModel = scan.bearingModel;
+  stored.returns.reserve(scan.returns.size());
+  for (const LineReturn& r : scan.returns) {
+    if (!std::isfinite(r.range_m) || !std::isfinite(r.bearing_rad) || r.range_m <= 0) continue;
+    PackedReturn packed;
+    packed.range_m = r.range_m;
+    packed.bearing_rad = r.bearing_rad;
+    packed.intensityHalf = toHalf(r.intensity);
+    packed.rangeSigmaHalf = toHalf(r.sigma_m);
+    stored.returns.push_back(packed);
+  }
+  if (stored.returns.empty()) return 0;
+  counts_[static_cast<std::size_t>(pose.layer)] += stored.returns.size();
+  resolve(stored);
+  lineScans_.push_back(std::move(stored));
+  touch();
+  return lineScans_.back().returns.size();
+}
+
+void CSeabedSkyMap::gatherEvidence(const StoredScan& scan) {
+  if (options_.insertion.lineElevation != LineElevation::Resolved) return;
+  if (scan.pose.layer != Layer::Lidar && scan.pose.layer != Layer::Stereo) return;
+  const core::Isometry T_map_vehicle = mapPose(scan.pose);
+  const double reach2 = options_.resolver.lidarWallRange_m * options_.resolver.lidarWallRange_m;
+  for (const PackedPoint& packed : scan.points) {
+    const ScanPoint point = unpack(packed);
+    const Eigen::Vector3d p_map = T_map_vehicle * point.p_vehicle.cast<double>();
+    if (scan.pose.layer == Layer::Stereo)
+      resolver_.addSonarEvidence(p_map, point.sigma_m);
+    else if (point.p_vehicle.z() >= 0 && point.p_vehicle.z() <= options_.resolver.lidarWallBand_m &&
+             point.p_vehicle.head<2>().squaredNorm() <= reach2)
+      resolver_.addWallEvidence(p_map);
+  }
+}
+
+void CSeabedSkyMap::resolve(StoredLineScan& scan) {
+  if (options_.insertion.lineElevation != LineElevation::Resolved) return LineScanResolver::setZero(scan);
+  const core::Isometry T_map_vehicle = mapPose(scan.pose);
+  resolver_.resolve(scan, T_map_vehicle);
+  if (scan.pose.layer == Layer::LineVertical) resolver_.addProfile(scan, T_map_vehicle);
+}
+
+void CSeabedSkyMap::resolveLineScans() {
+  resolver_.reset(options_.resolver);
+  for (const StoredScan& scan : scans_) gatherEvidence(scan);
+  // The vertical sonar first: its profiles are evidence for the horizontal one wherever in time they come.
+  for (StoredLineScan& scan : lineScans_)
+    if (scan.pose.layer == Layer::LineVertical) resolve(scan);
+  for (StoredLineScan& scan : lineScans_)
+    if (scan.pose.layer != Layer::LineVertical) resolve(scan);
+  touch();
+}
+
+std::size_t CSeabedSkyMap::pointCount(Layer layer) const { return counts_[static_cast<std::size_t>(layer)]; }
+
+std::size_t CSeabedSkyMap::pointCount() const {
+  std::size_t sum = 0;
+  for (const std::size_t count : counts_) sum += count;
+  return sum;
+}
+
+void CSeabedSkyMap::forEachPoint(Layer layer, const std::function<void(const MapPoint&)>& visit) const {
+  MapPoint out;
+  out.layer = layer;
+  for (const StoredScan& scan : scans_) {
+    if (scan.pose.layer != layer) continue;
+    const core::Isometry T_map_vehicle = mapPose(scan.pose);
+    out.time = scan.pose.time;
+    for (const PackedPoint& packed : scan.points) {
+      const ScanPoint point = unpack(packed);
+      out.p_map = T_map_vehicle * point.p_vehicle.cast<double>();
+      out.intensity = point.intensity;
+      out.sigma_m = point.sigma_m;
+      visit(out);
+    }
+  }
+  for (const StoredLineScan& scan : lineScans_) {
+    if (scan.pose.layer != layer) continue;
+    const core::Isometry T_map_sonar = mapPose(scan.pose) * scan.T_vehicle_sonar;
+    out.time = scan.pose.time;
+    for (const PackedReturn& r : scan.returns) {
+      out.p_map = T_map_sonar * arcPoint(scan.bearingModel, r.range_m, r.bearing_rad, kElevationStep_rad * r.elevation);
+      out.intensity = fromHalf(r.intensityHalf);
+      out.sigma_m = static_cast<float>(decodeSigma(r.sigmaCode));
+      visit(out);
+    }
+  }
+}
+
+std::optional<mrpt::math::TBoundingBox> CSeabedSkyMap::boundingBox(Layer layer) const {
+  if (pointCount(layer) == 0) return std::nullopt;
+  auto box = mrpt::math::TBoundingBox::PlusMinusInfinity();
+  forEachPoint(layer, [&box](const MapPoint& point) {
+    box.updateWithPoint({point.p_map.x(), point.p_map.y(), point.p_map.z()});
+  });
+  return box;
+}
+
+std::optional<mrpt::math::TBoundingBox> CSeabedSkyMap::boundingBox() const {
+  std::optional<mrpt::math::TBoundingBox> all;
+  for (const Layer layer : kLayers) {
+    const auto box = boundingBox(layer);
+    if (box) all = all ? all->unionWith(*box) : *box;
+  }
+  return all;
+}
+
+std::array<std::size_t, 4> CSeabedSkyMap::elevationSources(Layer layer) const {
+  std::array<std::size_t, 4> counts{};
+  for (const StoredLineScan& scan : lineScans_)
+    if (scan.pose.layer == layer)
+      for (const PackedReturn& r : scan.returns) ++counts[static_cast<std::size_t>(r.source)];
+  return counts;
+}
+
+std::size_t CSeabedSkyMap::memory_bytes() const {
+  std::size_t bytes =
+      scans_.capacity() * sizeof(StoredScan) + lineScans_.capacity() * sizeof(StoredLineScan) + thinner_.memory_bytes();
+  for (const StoredScan& scan : scans_) bytes += scan.points.capacity() * sizeof(PackedPoint);
+  for (const StoredLineScan& scan : lineScans_) bytes += scan.returns.capacity() * sizeof(PackedReturn);
+  return bytes;
+}
+
+mrpt::maps::CPointsMapXYZI::Ptr CSeabedSkyMap::getAsPointsMap(Layer layer) const {
+  auto cloud = mrpt::maps::CPointsMapXYZI::Create();
+  cloud->reserve(pointCount(layer));
+  forEachPoint(layer, [&cloud](const MapPoint& point) {
+    const Eigen::Vector3f p = point.p_map.cast<float>();
+    cloud->insertPointRGB(p.x(), p.y(), p.z(), point.intensity, point.intensity, point.intensity);
+  });
+  return cloud;
+}
+
+std::string CSeabedSkyMap::asString() const {
+  std::ostringstream text;
+  text << "Seabed-to-sky map: " << keyframes_.all().size() << " keyframes";
+  for (const Layer layer : kLayers) text << ", " << pointCount(layer) << " " << layerName(layer);
+  return text.str();
+}
+
+void CSeabedSkyMap::internal_clear() {
+  keyframes_.clear();
+  scans_.clear();
+  lineScans_.clear();
+  counts_ = {};
+  thinner_.clear();
+  resolver_.reset(options_.resolver);
+  touch();
+}
+
+}  // namespace s2s::map

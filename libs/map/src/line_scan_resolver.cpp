@@ -1,0 +1,225 @@
+#include "s2s/map/line_scan_resolver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace s2s::map {
+
+namespace {
+
+/// A place on an arc, decided.
+struct Decision {
+  double elevation_rad = 0;
+  double halfSpread_rad = 0;  ///< standard deviation of the elevation
+  double misfit = 0;          ///< distance from the surface in standard deviations
+  ElevationSource source = ElevationSource::LowestPoint;
+};
+
+/// Signed distance of an arc's places from one surface, positive on the free side; nothing where it is not known.
+struct Gap {
+  double distance_m = 0;
+  double sigma_m = 0;
+  bool known = false;
+};
+
+/// The places tried on one arc, from the lower end of the aperture to the upper.
+struct Arc {
+  std::vector<double> elevation_rad;
+  std::vector<Eigen::Vector3d> p_map;
+};
+
+/// Index of the least known gap; nothing if none is known.
+std::optional<std::size_t> leastGap(const std::vector<Gap>& gaps) {
+  std::optional<std::size_t> least;
+  for (std::size_t i = 0; i < gaps.size(); ++i)
+    if (gaps[i].known && (!least || gaps[i].distance_m < gaps[*least].distance_m)) least = i;
+  return least;
+}
+
+/// Where the surface touches the arc, `least` being the place with the least gap.
+///
+/// Inside the aperture the arc is tangent to the surface, and the middle of the places that fit as well is steadier
+/// than the least one. At the aperture's edge it is the edge itself.
+Decision contact(const Arc& arc, const std::vector<Gap>& gaps, std::size_t least) {
+  const double limit = gaps[least].distance_m + gaps[least].sigma_m;
+  std::size_t first = least, last = least;
+  while (first > 0 && gaps[first - 1].known && gaps[first - 1].distance_m <= limit) --first;
+  while (last + 1 < gaps.size() && gaps[last + 1].known && gaps[last + 1].distance_m <= limit) ++last;
+  const bool atEdge = (first == 0) != (last + 1 == gaps.size());
+  const double width = arc.elevation_rad[last] - arc.elevation_rad[first];
+  Decision decision;
+  decision.elevation_rad =
+      atEdge ? arc.elevation_rad[least] : 0.5 * (arc.elevation_rad[first] + arc.elevation_rad[last]);
+  decision.halfSpread_rad = width / std::sqrt(12.0);
+  decision.misfit = std::abs(gaps[least].distance_m) / gaps[least].sigma_m;
+  return decision;
+}
+
+/// Where the arc comes out of the surface above `least`, or below it: the crossing nearest to it.
+std::optional<Decision> crossing(const Arc& arc, const std::vector<Gap>& gaps, std::size_t least) {
+  const auto between = [&](std::size_t inside, std::size_t outside) {
+    const double a = gaps[inside].distance_m, b = gaps[outside].distance_m;
+    const double slope = (b - a) / (arc.elevation_rad[outside] - arc.elevation_rad[inside]);
+    Decision decision;
+    decision.elevation_rad = arc.elevation_rad[inside] - a / slope;
+    decision.halfSpread_rad = gaps[inside].sigma_m / std::abs(slope);
+    return decision;
+  };
+  const std::size_t reach = std::max(least, gaps.size() - 1 - least);
+  for (std::size_t step = 1; step <= reach; ++step) {
+    if (least + step < gaps.size() && gaps[least + step].known && gaps[least + step - 1].known &&
+        gaps[least + step].distance_m > 0)
+      return between(least + step - 1, least + step);
+    if (step <= least && gaps[least - step].known && gaps[least - step + 1].known && gaps[least - step].distance_m > 0)
+      return between(least - step + 1, least - step);
+  }
+  return std::nullopt;
+}
+
+/// Nothing known: the lowest point, which may be off by all of the aperture in the directions there are.
+Decision lowestPoint(const Arc& arc) {
+  std::size_t lowest = 0;
+  for (std::size_t i = 1; i < arc.p_map.size(); ++i)
+    if (arc.p_map[i].z() < arc.p_map[lowest].z()) lowest = i;
+  const double below = arc.elevation_rad[lowest] - arc.elevation_rad.front();
+  const double above = arc.elevation_rad.back() - arc.elevation_rad[lowest];
+  Decision decision;
+  decision.elevation_rad = arc.elevation_rad[lowest];
+  // Root mean square distance from there of a place evenly distributed over the aperture.
+  decision.halfSpread_rad = std::sqrt((std::pow(below, 3) + std::pow(above, 3)) / (3 * std::max(1e-9, below + above)));
+  return decision;
+}
+
+double pointSigma(const PackedReturn& r, double bearingSigma_rad, double elevationSigma_rad) {
+  const double range = r.range_m, along = range * elevationSigma_rad, across = range * bearingSigma_rad;
+  const double range_sigma = fromHalf(r.rangeSigmaHalf);
+  return std::sqrt(range_sigma * range_sigma + std::max(along * along, across * across));
+}
+
+void apply(const Decision& decision, double bearingSigma_rad, PackedReturn& r) {
+  r.elevation = static_cast<std::int16_t>(std::lround(decision.elevation_rad / kElevationStep_rad));
+  r.source = decision.source;
+  r.sigmaCode = encodeSigma(pointSigma(r, bearingSigma_rad, decision.halfSpread_rad));
+}
+
+/// Decides the returns of one ping; keeps the buffers between them.
+class PingResolver {
+ public:
+  PingResolver(const SurfaceEvidence& evidence, const ResolverOptions& options, const StoredLineScan& scan,
+               const core::Isometry& T_map_vehicle)
+      : evidence_(evidence), options_(options), scan_(scan), T_map_sonar_(T_map_vehicle * scan.T_vehicle_sonar) {
+    const auto steps = static_cast<std::size_t>(std::max(3, options.arcSteps));
+    arc_.elevation_rad.resize(steps);
+    arc_.p_map.resize(steps);
+    seabedGaps_.resize(steps);
+    wallGaps_.resize(steps);
+    for (std::size_t i = 0; i < steps; ++i)
+      arc_.elevation_rad[i] =
+          scan.verticalAperture_rad * (static_cast<double>(i) / static_cast<double>(steps - 1) - 0.5);
+  }
+
+  Decision decide(const PackedReturn& r) {
+    for (std::size_t i = 0; i < arc_.p_map.size(); ++i)
+      arc_.p_map[i] = T_map_sonar_ * arcPoint(scan_.bearingModel, r.range_m, r.bearing_rad, arc_.elevation_rad[i]);
+    const double rangeSigma = fromHalf(r.rangeSigmaHalf);
+    const std::optional<Decision> seabed = meetSeabed(rangeSigma), wall = meetWall(rangeSigma);
+    if (seabed && wall) return seabed->misfit <= wall->misfit ? *seabed : *wall;
+    if (seabed) return *seabed;
+    if (wall) return *wall;
+    return lowestPoint(arc_);
+  }
+
+ private:
+  double gapSigma(double surfaceSigma_m, double rangeSigma_m) const {
+    return std::sqrt(surfaceSigma_m * surfaceSigma_m + rangeSigma_m * rangeSigma_m +
+                     options_.surfaceRoughness_m * options_.surfaceRoughness_m);
+  }
+
+  std::optional<Decision> meetSeabed(double rangeSigma_m) {
+    for (std::size_t i = 0; i < arc_.p_map.size(); ++i) {
+      const Eigen::Vector3d& p = arc_.p_map[i];
+      const auto seabed = evidence_.seabedAt(p.x(), p.y());
+      seabedGaps_[i].known = seabed.has_value();
+      if (!seabed) continue;
+      seabedGaps_[i].distance_m = p.z() - seabed->height_m;
+      seabedGaps_[i].sigma_m = gapSigma(seabed->sigma_m, rangeSigma_m);
+    }
+    const auto least = leastGap(seabedGaps_);
+    if (!least) return std::nullopt;
+    const Gap& gap = seabedGaps_[*least];
+    if (gap.distance_m > options_.gate * gap.sigma_m) return std::nullopt;
+    std::optional<Decision> decision;
+    if (gap.distance_m >= -options_.gate * gap.sigma_m)
+      decision = contact(arc_, seabedGaps_, *least);
+    else
+      decision = crossing(arc_, seabedGaps_, *least);
+    if (decision) decision->source = ElevationSource::Seabed;
+    return decision;
+  }
+
+  std::optional<Decision> meetWall(double rangeSigma_m) {
+    if (evidence_.wallCount() == 0) return std::nullopt;
+    for (std::size_t i = 0; i < arc_.p_map.size(); ++i) wallGaps_[i] = wallGap(arc_.p_map[i], rangeSigma_m);
+    const auto least = leastGap(wallGaps_);
+    if (!least) return std::nullopt;
+    // An arc that goes through the wall proves that there is none at that depth, so there is no crossing here.
+    if (std::abs(wallGaps_[*least].distance_m) > options_.gate * wallGaps_[*least].sigma_m) return std::nullopt;
+    Decision decision = contact(arc_, wallGaps_, *least);
+    decision.source = ElevationSource::Wall;
+    return decision;
+  }
+
+  Gap wallGap(const Eigen::Vector3d& p, double rangeSigma_m) const {
+    const auto wall = evidence_.wallNear(p.x(), p.y());
+    Gap gap;
+    // Walls go on below what was seen of them, not above.
+    if (!wall || p.z() > wall->top_m + options_.wallCell_m) return gap;
+    gap.known = true;
+    gap.distance_m = wall->normal.dot(p.head<2>()) - wall->offset_m;
+    if (wall->normal.dot(T_map_sonar_.translation().head<2>()) < wall->offset_m) gap.distance_m = -gap.distance_m;
+    gap.sigma_m = gapSigma(wall->sigma_m, rangeSigma_m);
+    return gap;
+  }
+
+  const SurfaceEvidence& evidence_;
+  const ResolverOptions& options_;
+  const StoredLineScan& scan_;
+  const core::Isometry T_map_sonar_;
+  Arc arc_;
+  std::vector<Gap> seabedGaps_, wallGaps_;
+};
+
+}  // namespace
+
+void LineScanResolver::reset(const ResolverOptions& options) {
+  options_ = options;
+  evidence_.reset(options);
+}
+
+void LineScanResolver::addProfile(const StoredLineScan& scan, const core::Isometry& T_map_vehicle) {
+  const core::Isometry T_map_sonar = T_map_vehicle * scan.T_vehicle_sonar;
+  for (const PackedReturn& r : scan.returns) {
+    // A surface touches the arc tangentially, so that a wrong elevation moves the point along the surface: only range
+    // and bearing count for the surface's height.
+    const double sigma_m = std::hypot(fromHalf(r.rangeSigmaHalf), r.range_m * scan.bearingSigma_rad);
+    addSonarEvidence(
+        T_map_sonar * arcPoint(scan.bearingModel, r.range_m, r.bearing_rad, kElevationStep_rad * r.elevation), sigma_m);
+  }
+}
+
+void LineScanResolver::resolve(StoredLineScan& scan, const core::Isometry& T_map_vehicle) const {
+  PingResolver ping(evidence_, options_, scan, T_map_vehicle);
+  for (PackedReturn& r : scan.returns) apply(ping.decide(r), scan.bearingSigma_rad, r);
+}
+
+void LineScanResolver::setZero(StoredLineScan& scan) {
+  Decision zero;
+  zero.source = ElevationSource::Zero;
+  zero.halfSpread_rad = scan.verticalAperture_rad / std::sqrt(12.0);
+  for (PackedReturn& r : scan.returns) apply(zero, scan.bearingSigma_rad, r);
+}
+
+}  // namespace s2s::map
