@@ -10,9 +10,6 @@
 #include "s2s/core/error.h"
 #include "s2s/map/CSeabedSkyMap.h"
 
-// The list of names must hold the fully qualified class name, or MRPT cannot create the map.
-MAP_DEFINITION_REGISTER("s2s::map::CSeabedSkyMap,seabedSkyMap", s2s::map::CSeabedSkyMap)
-
 namespace s2s::map {
 
 namespace {
