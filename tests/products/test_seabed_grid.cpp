@@ -148,13 +148,14 @@ TEST(SeabedGridder, LidarShallowAndBrokenPoints_AreLeftOutAndCounted) {
   for (int i = 0; i < 5; ++i) gridder.add(sounding(0, 0, -3, 0.05, map::Layer::Lidar));
   for (int i = 0; i < 5; ++i) gridder.add(sounding(0, 0, 0.1, 0.05));  // 15 cm below the surface
   gridder.add(sounding(std::nan(""), 0, -3, 0.05));
+  gridder.add(sounding(0, std::nan(""), -3, 0.05));
   gridder.add(sounding(0, 1e300, -3, 0.05));
   gridder.add(sounding(0, 0, -3, 0.05));  // one alone
   const HeightGrid grid = gridder.grid();
   EXPECT_EQ(grid.columns, 0);
-  EXPECT_EQ(gridder.statistics().soundings, 8U);
+  EXPECT_EQ(gridder.statistics().soundings, 9U);
   EXPECT_EQ(gridder.statistics().tooShallow, 5U);
-  EXPECT_EQ(gridder.statistics().notFinite, 2U);
+  EXPECT_EQ(gridder.statistics().notFinite, 3U);
   EXPECT_EQ(gridder.statistics().fewPoints, 1U);
 }
 

@@ -155,7 +155,7 @@ void writeBag(const std::string& path, const HeightGrid& grid, core::TimeNs surv
   GDALDriver* memory = GetGDALDriverManager()->GetDriverByName("MEM");
   if (bag == nullptr || memory == nullptr)
     throw core::OutputError("this GDAL cannot write BAG files", path,
-                            "install Debian's libgdal32 with gdal-plugins, or switch the product off");
+                            "use a GDAL with HDF5, as Debian's is, or switch the product off");
   const Dataset source(memory->Create("", grid.columns, grid.rows, 2, GDT_Float32, nullptr));
   if (!source || !fill(*source, grid, bagCrsWkt(), 2)) failWriting(path, messages);
   const std::string date = core::formatUtc(surveyTime).substr(0, 10);

@@ -65,8 +65,8 @@ void SeabedGridder::add(const map::MapPoint& point) {
   ++statistics_.soundings;
   const Eigen::Vector3d cellAndBin(point.p_map.x() / options_.cell_m, point.p_map.y() / options_.cell_m,
                                    point.p_map.z() * kBinsPerMetre);
-  // Written so that NaN is refused too.
-  if (!(cellAndBin.cwiseAbs().maxCoeff() < kLargestIndex) || !std::isfinite(point.sigma_m)) {
+  // NaN fails the comparison too; maxCoeff() would pass over it.
+  if (!(cellAndBin.array().abs() < kLargestIndex).all() || !std::isfinite(point.sigma_m)) {
     ++statistics_.notFinite;
     return;
   }

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "s2s/core/time.h"
+
+namespace s2s::products {
+
+/// What a mapping run was and what became of it: filled by the mapper, completed and written by `writeProducts`.
+struct RunSummary {
+  std::vector<std::string> inputs;  ///< rawlog files
+  core::TimeNs startTime = 0;       ///< first and last record used
+  core::TimeNs endTime = 0;
+  double duration_s = 0;  ///< of the survey
+  double wall_s = 0;      ///< of the run; writeProducts adds its own time
+  double peakRss_mb = 0;  ///< writeProducts raises it to the process' peak when it is done
+
+  std::uint64_t sweeps = 0;
+  std::uint64_t pingsHorizontal = 0;
+  std::uint64_t pingsVertical = 0;
+  std::uint64_t imuSamples = 0;
+  std::uint64_t keyframes = 0;
+  std::uint64_t loopClosures = 0;
+  double pathLength_m = 0;
+  std::array<std::uint64_t, 4> points = {};  ///< by map::Layer; counted by writeProducts
+
+  std::optional<double> waterHeight_m;  ///< height of the water surface in the map frame, when it is known
+  std::string waterHeightSource;        ///< e.g. "configured", "estimated from the LiDAR"
+
+  /// Faults of the data by kind, e.g. {"records out of order", 3}.
+  std::vector<std::pair<std::string, std::uint64_t>> dataFaults;
+  std::vector<std::string> warnings;
+  std::vector<std::pair<std::string, double>> stageTimes_s;  ///< e.g. {"odometry", 41.2}
+  /// Further figures for the table and `summary.json`; the name ends in its unit, e.g. {"loop_closure_residual_m",
+  /// 0.02}.
+  std::vector<std::pair<std::string, double>> figures;
+  std::string effectiveIni;  ///< the configuration used, shown in the report
+
+  double realtimeFactor() const { return wall_s > 0 ? duration_s / wall_s : 0; }
+};
+
+/// The summary as JSON with the keys of `share/docs/products.md`, indented, ending in a newline.
+std::string toJson(const RunSummary& summary);
+
+/// Reads the figures back out of a `summary.json`; what is absent keeps its default, `effectiveIni` is not in it.
+/// @throws core::InputError with file and byte
+RunSummary readSummary(const std::string& path);
+
+}  // namespace s2s::products

@@ -1,0 +1,28 @@
+#include "s2s/products/colour_ramp.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace s2s::products {
+
+ColourRamp::ColourRamp(double low, double high, std::vector<Rgb> anchors)
+    : low_(low), high_(std::max(high, low + 0.1)), anchors_(std::move(anchors)) {}
+
+Rgb ColourRamp::at(double value) const {
+  const double last = static_cast<double>(anchors_.size() - 1);
+  const double place = std::isnan(value) ? 0 : std::clamp((value - low_) / (high_ - low_), 0.0, 1.0) * last;
+  const auto i = std::min(static_cast<std::size_t>(place), anchors_.size() - 2);
+  const double u = place - static_cast<double>(i);
+  Rgb colour{};
+  for (std::size_t c = 0; c < 3; ++c)
+    colour[c] = static_cast<std::uint8_t>(std::lround((1 - u) * anchors_[i][c] + u * anchors_[i + 1][c]));
+  return colour;
+}
+
+MapColours::MapColours(double lidarLow_m, double lidarHigh_m, double sonarLow_m, double sonarHigh_m)
+    : lidar(lidarLow_m, lidarHigh_m,
+            {{{94, 70, 58}}, {{158, 108, 72}}, {{212, 158, 96}}, {{236, 205, 145}}, {{246, 236, 208}}}),
+      sonar(sonarLow_m, sonarHigh_m,
+            {{{38, 38, 110}}, {{34, 84, 160}}, {{30, 136, 178}}, {{62, 184, 168}}, {{158, 222, 150}}}) {}
+
+}  // namespace s2s::products

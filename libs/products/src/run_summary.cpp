@@ -1,0 +1,108 @@
+#include "s2s/products/run_summary.h"
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "s2s/core/error.h"
+#include "s2s/map/map_point.h"
+
+namespace s2s::products {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON knows no NaN and no infinity; both become null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+/// Milliseconds are enough for durations; it keeps the file readable.
+double milli(double value) { return std::isfinite(value) ? std::round(value * 1000) / 1000 : value; }
+
+template <class Value>
+void take(const Json& json, const char* key, Value& value) {
+  if (json.contains(key) && !json[key].is_null()) value = json[key].get<Value>();
+}
+
+RunSummary fromJson(const Json& json) {
+  RunSummary s;
+  take(json, "inputs", s.inputs);
+  take(json, "start_time_ns", s.startTime);
+  take(json, "end_time_ns", s.endTime);
+  take(json, "duration_s", s.duration_s);
+  take(json, "wall_s", s.wall_s);
+  take(json, "peak_rss_mb", s.peakRss_mb);
+  take(json, "sweeps", s.sweeps);
+  take(json, "pings_horizontal", s.pingsHorizontal);
+  take(json, "pings_vertical", s.pingsVertical);
+  take(json, "imu_samples", s.imuSamples);
+  take(json, "keyframes", s.keyframes);
+  take(json, "loop_closures", s.loopClosures);
+  take(json, "path_length_m", s.pathLength_m);
+  for (const auto layer : map::kLayers)
+    if (json.contains("points")) take(json["points"], map::layerName(layer), s.points[static_cast<std::size_t>(layer)]);
+  if (json.contains("water_height_m") && !json["water_height_m"].is_null())
+    s.waterHeight_m = json["water_height_m"].get<double>();
+  take(json, "water_height_source", s.waterHeightSource);
+  take(json, "warnings", s.warnings);
+  if (json.contains("data_faults"))
+    for (const auto& [name, count] : json["data_faults"].items()) s.dataFaults.emplace_back(name, count);
+  if (json.contains("stage_times_s"))
+    for (const auto& [name, time] : json["stage_times_s"].items()) s.stageTimes_s.emplace_back(name, time);
+  if (json.contains("figures"))
+    for (const auto& [name, value] : json["figures"].items())
+      s.figures.emplace_back(name, value.is_null() ? std::nan("") : value.get<double>());
+  return s;
+}
+
+}  // namespace
+
+std::string toJson(const RunSummary& s) {
+  Json json;
+  json["software"] = "Seabed-to-Sky " S2S_VERSION;
+  json["inputs"] = s.inputs;
+  json["start_utc"] = core::formatUtc(s.startTime);
+  json["end_utc"] = core::formatUtc(s.endTime);
+  json["start_time_ns"] = s.startTime;
+  json["end_time_ns"] = s.endTime;
+  json["duration_s"] = number(milli(s.duration_s));
+  json["wall_s"] = number(milli(s.wall_s));
+  json["realtime_factor"] = number(milli(s.realtimeFactor()));
+  json["peak_rss_mb"] = number(milli(s.peakRss_mb));
+  json["sweeps"] = s.sweeps;
+  json["pings_horizontal"] = s.pingsHorizontal;
+  json["pings_vertical"] = s.pingsVertical;
+  json["imu_samples"] = s.imuSamples;
+  json["keyframes"] = s.keyframes;
+  json["loop_closures"] = s.loopClosures;
+  json["path_length_m"] = number(milli(s.pathLength_m));
+  for (const auto layer : map::kLayers)
+    json["points"][map::layerName(layer)] = s.points[static_cast<std::size_t>(layer)];
+  json["water_height_m"] = s.waterHeight_m ? number(*s.waterHeight_m) : Json(nullptr);
+  json["water_height_source"] = s.waterHeightSource;
+  json["figures"] = Json::object();
+  for (const auto& [name, value] : s.figures) json["figures"][name] = number(value);
+  json["stage_times_s"] = Json::object();
+  for (const auto& [name, time] : s.stageTimes_s) json["stage_times_s"][name] = number(milli(time));
+  json["data_faults"] = Json::object();
+  for (const auto& [name, count] : s.dataFaults) json["data_faults"][name] = count;
+  json["warnings"] = s.warnings;
+  // Names come from files and may hold anything; broken UTF-8 is replaced instead of refused.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+RunSummary readSummary(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw core::InputError("cannot open the summary", path, "give the output folder of a mapping run");
+  try {
+    return fromJson(Json::parse(file));
+  } catch (const nlohmann::json::parse_error& error) {
+    throw core::InputError("the summary is no valid JSON", path + " byte " + std::to_string(error.byte),
+                           "make the map again");
+  } catch (const nlohmann::json::exception& error) {
+    throw core::InputError(std::string("the summary holds a value of the wrong kind: ") + error.what(), path,
+                           "make the map again");
+  }
+}
+
+}  // namespace s2s::products

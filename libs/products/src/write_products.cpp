@@ -1,0 +1,219 @@
+#include "s2s/products/write_products.h"
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+#include "s2s/core/atomic_file.h"
+#include "s2s/core/error.h"
+#include "s2s/products/cloud_statistics.h"
+#include "s2s/products/grid_files.h"
+#include "s2s/products/las_writer.h"
+#include "s2s/products/mrpt_files.h"
+#include "s2s/products/ply_writer.h"
+#include "s2s/products/trajectory_files.h"
+
+namespace s2s::products {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<map::Layer> kSonarLayers = {map::Layer::Stereo, map::Layer::LineHorizontal, map::Layer::LineVertical};
+
+/// Peak resident memory of this process.
+double peakRss_mb() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+/// Height of the water if the mapper knows it, else the middle height of the path: the vehicle's origin lies on the
+/// waterline.
+double waterHeight(RunSummary& summary, const core::Trajectory& path) {
+  if (summary.waterHeight_m) return *summary.waterHeight_m;
+  std::vector<double> heights;
+  for (const auto& pose : path.poses()) heights.push_back(pose.T.translation().z());
+  if (heights.empty()) return 0;
+  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+  std::nth_element(heights.begin(), middle, heights.end());
+  summary.waterHeight_m = *middle;
+  summary.waterHeightSource = "median height of the path";
+  summary.warnings.emplace_back("the water height is not known; the median height of the path stands for it");
+  return *middle;
+}
+
+/// One call of writeProducts.
+class Writing {
+ public:
+  Writing(const PointSource& points, const Trajectories& trajectories, RunSummary summary,
+          const ProductsOptions& options, std::string dir, const std::function<void(const std::string&)>& onFile)
+      : points_(points), trajectories_(trajectories), options_(options), dir_(std::move(dir)), onFile_(onFile) {
+    result_.summary = std::move(summary);
+    waterHeight_m_ = waterHeight(result_.summary, trajectories_.optimised);
+  }
+
+  ProductsResult run() {
+    writeTrajectories();
+    firstPass();
+    writeGrid();
+    secondPass();
+    writeSummary();
+    return std::move(result_);
+  }
+
+ private:
+  std::string begin(const std::string& name) const {
+    if (onFile_) onFile_(name);
+    return (fs::path(dir_) / name).string();
+  }
+
+  void done(const std::string& name) { result_.files.push_back({name, fs::file_size(fs::path(dir_) / name)}); }
+
+  /// Writes one file by `write(path)` and books it.
+  template <class Write>
+  void file(const std::string& name, const Write& write) {
+    write(begin(name));
+    done(name);
+  }
+
+  void writeTrajectories() {
+    file("trajectory.tum", [&](const auto& path) { writeTum(path, trajectories_.optimised); });
+    file("odometry.tum", [&](const auto& path) { writeTum(path, trajectories_.odometry); });
+    file("keyframes.tum", [&](const auto& path) { writeTum(path, trajectories_.keyframes); });
+    if (!options_.kitti) return;
+    const std::string times = begin("trajectory_times.txt");
+    file("trajectory.kitti", [&](const auto& path) { writeKitti(path, trajectories_.optimised, times); });
+    done("trajectory_times.txt");
+  }
+
+  /// PLY files, statistics and the seabed's soundings.
+  void firstPass() {
+    std::unique_ptr<PlyPointWriter> all;
+    if (options_.mapPly) all = std::make_unique<PlyPointWriter>(begin("map.ply"), PlyPointWriter::Columns::WithLayer);
+    for (const auto layer : map::kLayers) {
+      const std::string name = std::string(map::layerName(layer)) + ".ply";
+      std::unique_ptr<PlyPointWriter> ply;
+      if (options_.ply) ply = std::make_unique<PlyPointWriter>(begin(name));
+      points_(layer, [&](const map::MapPoint& point) {
+        if (!statistics_.add(point)) return;
+        if (ply) ply->add(point);
+        if (all) all->add(point);
+        if (wantsGrid()) gridder().add(point);
+      });
+      if (ply) {
+        ply->finish();
+        done(name);
+      }
+      result_.summary.points[static_cast<std::size_t>(layer)] = statistics_.layer(layer).count;
+    }
+    if (all) {
+      all->finish();
+      done("map.ply");
+    }
+    if (statistics_.notFinite() > 0)
+      warn(std::to_string(statistics_.notFinite()) + " map points were not finite and were left out");
+  }
+
+  bool wantsGrid() const { return options_.geoTiff || options_.bag || options_.report; }
+
+  SeabedGridder& gridder() {
+    if (!gridder_) gridder_ = std::make_unique<SeabedGridder>(options_.grid, waterHeight_m_);
+    return *gridder_;
+  }
+
+  void writeGrid() {
+    if (!wantsGrid()) return;
+    grid_ = gridder().grid();
+    result_.seabed = gridder().statistics();
+    gridder_.reset();
+    if (grid_.columns == 0) {
+      warn("no seabed grid: too few soundings in every cell");
+      return;
+    }
+    result_.summary.figures.emplace_back("seabed_area_m2", result_.seabed.area_m2);
+    result_.summary.figures.emplace_back("seabed_lowest_height_m", result_.seabed.minHeight_m);
+    result_.summary.figures.emplace_back("seabed_highest_height_m", result_.seabed.maxHeight_m);
+    if (options_.geoTiff) file("seabed.tif", [&](const auto& path) { writeGeoTiff(path, grid_); });
+    if (options_.bag) file("seabed.bag", [&](const auto& path) { writeBag(path, grid_, result_.summary.startTime); });
+  }
+
+  MapColours colours() const {
+    return {waterHeight_m_, statistics_.heightQuantile_m({map::Layer::Lidar}, 0.98),
+            statistics_.heightQuantile_m(kSonarLayers, 0.01), waterHeight_m_};
+  }
+
+  LasFrame lasFrame() const {
+    LasFrame frame;
+    frame.offset_m = statistics_.roundMiddle();
+    frame.surveyTime = result_.summary.startTime;
+    for (const auto layer : map::kLayers)
+      frame.intensityFactor[static_cast<std::size_t>(layer)] =
+          lasIntensityFactor(statistics_.layer(layer).maxIntensity);
+    return frame;
+  }
+
+  /// What needs the statistics first: LAS, scene, simple map.
+  void secondPass() {
+    std::unique_ptr<LasWriter> las;
+    std::unique_ptr<SceneBuilder> scene;
+    std::unique_ptr<SimpleMapBuilder> simpleMap;
+    const auto stride = [&](int limit) { return strideFor(statistics_.count(), static_cast<std::uint64_t>(limit)); };
+    if (options_.las) las = std::make_unique<LasWriter>(begin("map.las"), lasFrame());
+    if (options_.scene) scene = std::make_unique<SceneBuilder>(colours(), stride(options_.sceneMaxPoints));
+    if (options_.simpleMap)
+      simpleMap = std::make_unique<SimpleMapBuilder>(trajectories_.keyframes, stride(options_.simpleMapMaxPoints));
+    std::uint64_t outsideLas = 0;
+    for (const auto layer : map::kLayers)
+      points_(layer, [&](const map::MapPoint& point) {
+        if (!point.p_map.allFinite()) return;
+        if (las && !las->add(point)) ++outsideLas;
+        if (scene) scene->add(point);
+        if (simpleMap) simpleMap->add(point);
+      });
+    if (outsideLas > 0) warn(std::to_string(outsideLas) + " points lie too far away for LAS and were left out of it");
+    if (las) {
+      las->finish();
+      done("map.las");
+    }
+    if (scene)
+      file("map.3Dscene", [&](const auto& path) {
+        scene->write(path, trajectories_.optimised, trajectories_.keyframes, waterHeight_m_);
+      });
+    if (simpleMap) file("map.simplemap", [&](const auto& path) { simpleMap->write(path); });
+  }
+
+  void writeSummary() {
+    const double products_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    result_.summary.wall_s += products_s;
+    result_.summary.stageTimes_s.emplace_back("products", products_s);
+    result_.summary.peakRss_mb = std::max(result_.summary.peakRss_mb, peakRss_mb());
+    file("summary.json", [&](const auto& path) { core::writeTextFile(path, toJson(result_.summary)); });
+  }
+
+  void warn(const std::string& text) { result_.summary.warnings.push_back(text); }
+
+  const PointSource& points_;
+  const Trajectories& trajectories_;
+  const ProductsOptions& options_;
+  std::string dir_;
+  const std::function<void(const std::string&)>& onFile_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double waterHeight_m_ = 0;
+  CloudStatistics statistics_;
+  std::unique_ptr<SeabedGridder> gridder_;
+  HeightGrid grid_;
+  ProductsResult result_;
+};
+
+}  // namespace
+
+ProductsResult writeProducts(const PointSource& points, const Trajectories& trajectories, RunSummary summary,
+                             const ProductsOptions& options, const std::string& dir,
+                             const std::function<void(const std::string&)>& onFile) {
+  return Writing(points, trajectories, std::move(summary), options, dir, onFile).run();
+}
+
+}  // namespace s2s::products
