@@ -11,6 +11,7 @@ namespace s2s::sonar {
 namespace {
 
 constexpr int kNobody = -1;
+constexpr double kSmallestStep = 1e-6;  // of the auction's prices, as a share of the unmatched cost
 
 /// Edges by row: those of row i are at [begin[i], begin[i + 1]). Useless edges are left out.
 struct RowGraph {
@@ -152,7 +153,7 @@ class Auction {
     // With prices of zero every row takes its cheapest column: a first lower bound. A step of gap / rows keeps the sum
     // within the gap; the floor keeps rows of equal cost from bidding for ever.
     const double bound = lowerBound();
-    step_ = std::max(relativeGap * bound / std::max(1, p.rows), 1e-4 * alone_ * relativeGap);
+    step_ = std::max(relativeGap * bound / std::max(1, p.rows), kSmallestStep * alone_);
   }
 
   std::vector<int> run() {
