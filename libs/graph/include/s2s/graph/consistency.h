@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "s2s/graph/loop_closure.h"
+#include "s2s/graph/odometry_chain.h"
+
+namespace s2s::graph {
+
+struct ConsistencyOptions {
+  /// Largest squared Mahalanobis distance (6 degrees of freedom) between a closure and the odometry, and between two
+  /// closures along the odometry that joins them; 22.5 is the 99.9 % quantile.
+  double chi2 = 22.5;
+  /// Closures that must agree before the first of them is believed.
+  int minSupport = 2;
+  /// Drift of the odometry per metre travelled that is assumed beyond its own covariance (random walk).
+  double driftTranslation_m = 0.01;
+  double driftRotation_rad = 0.0005;
+};
+
+/// Squared Mahalanobis distance of a closure to the odometry.
+double odometryChi2(const OdometryChain& chain, const LoopClosure& closure);
+/// Squared Mahalanobis distance from the identity of the loop a.from -> a.to -> b.to -> b.from -> a.from.
+double pairChi2(const OdometryChain& chain, const LoopClosure& a, const LoopClosure& b);
+
+/// Keeps the closures that agree with each other: pairwise consistency maximisation (Mangelson et al., "Pairwise
+/// Consistent Measurement Set Maximization", ICRA 2018), grown closure by closure. The largest clique is sought
+/// greedily from many starts.
+class ConsistencySet {
+ public:
+  explicit ConsistencySet(const ConsistencyOptions& options) : options_(options) {}
+
+  /// Adds a verified closure and returns its number.
+  int add(const OdometryChain& chain, const LoopClosure& closure);
+  /// Takes a closure out of the choice for good.
+  void ban(int number) { banned_[number] = true; }
+
+  /// True for each closure of the chosen set; empty while fewer than `minSupport` agree.
+  const std::vector<bool>& chosen() const { return chosen_; }
+  /// Chooses anew among all that are not banned.
+  void choose();
+
+ private:
+  using Row = std::vector<std::uint64_t>;
+  std::vector<int> grow(int seed, const std::vector<int>& order) const;
+
+  ConsistencyOptions options_;
+  std::vector<LoopClosure> closures_;
+  std::vector<Row> agrees_;
+  std::vector<bool> banned_, chosen_;
+};
+
+}  // namespace s2s::graph

@@ -1,0 +1,95 @@
+#include "survey_problem.h"
+
+#include <Eigen/Cholesky>
+
+#include "s2s/graph/factors/gravity_factor.h"
+#include "s2s/graph/factors/waterline_factor.h"
+
+namespace s2s::graph {
+
+namespace {
+
+constexpr double kHeldSigma = 1e-4;       // metres and radians: stiff, yet far from numerically singular
+constexpr double kFreeTiltSigma_rad = 0.2;  // of the first keyframe, when gravity tells its roll and pitch
+
+void addAnchor(const SurveyState& state, bool gravityKnown, GraphProblem& graph) {
+  core::Vector6 sigma = core::Vector6::Constant(kHeldSigma);
+  if (gravityKnown) sigma.segment<2>(3).setConstant(kFreeTiltSigma_rad);
+  graph.addPrior(0, state.keyframes.front().T_odom_vehicle, sigma.array().square().inverse().matrix().asDiagonal());
+}
+
+bool addGravity(const SurveyState& state, GraphProblem& graph) {
+  bool any = false;
+  for (std::size_t k = 0; k < state.gravity.size(); ++k) {
+    if (!state.gravity[k]) continue;
+    graph.add(new GravityFactor(state.gravity[k]->up_vehicle, state.gravity[k]->sigma_rad), nullptr, {graph.pose(k)});
+    any = true;
+  }
+  return any;
+}
+
+void addClosures(const SurveyState& state, double lossWidth, GraphProblem& graph) {
+  for (const auto& closure : state.closures)
+    if (closure.status == ClosureStatus::accepted)
+      graph.addBetween(closure.from, closure.to, closure.T_from_to, closure.covariance.inverse(),
+                       new ceres::CauchyLoss(lossWidth));
+}
+
+/// One height of the surface for each section of time, each tied softly to the one before.
+double* addWaterline(const SurveyState& state, const WaterlineOptions& options, GraphProblem& graph) {
+  double* level = nullptr;
+  core::TimeNs sectionEnd = 0;
+  for (std::size_t k = 0; k < state.keyframes.size(); ++k) {
+    const Keyframe& keyframe = state.keyframes[k];
+    if (!level || keyframe.time >= sectionEnd) {
+      double* const next = graph.addScalar(keyframe.T_map_vehicle.translation().z() - options.height_m);
+      if (level)
+        graph.add(new WaterlineDriftFactor(options.driftSigma_m), new ceres::CauchyLoss(options.lossWidth),
+                  {level, next});
+      level = next;
+      sectionEnd = keyframe.time + core::durationNs(options.section_s);
+    }
+    graph.add(new WaterlineFactor(options.height_m, options.sigma_m), new ceres::CauchyLoss(options.lossWidth),
+              {graph.pose(k), level});
+  }
+  return level;
+}
+
+GnssReport addGnss(const SurveyState& state, const GnssOptions& options, GraphProblem& graph) {
+  const GnssAssessment assessment = assessGnss(state.fixes, state.keyframes, options);
+  if (assessment.report.state != GnssState::trusted || !assessment.report.T_enu_map) return assessment.report;
+  const core::Isometry& T = *assessment.report.T_enu_map;
+  double* const alignment = graph.addAlignment(
+      {T.translation().x(), T.translation().y(), T.translation().z(), std::atan2(T.linear()(1, 0), T.linear()(0, 0))});
+  for (std::size_t n = 0; n < state.fixes.size(); ++n) {
+    if (!assessment.believable[n]) continue;
+    const TiedFix& tied = state.fixes[n];
+    graph.add(new GnssFactor(tied.fix.p_enu, tied.p_keyframe_antenna, tied.fix.sigma_m.cwiseMax(options.minSigma_m)),
+              new ceres::CauchyLoss(options.lossWidth), {graph.pose(tied.keyframe), alignment});
+  }
+  return assessment.report;
+}
+
+}  // namespace
+
+core::Matrix6 stepInformation(const OdometryChain& chain, int k) {
+  return chain.stepCovariance(k).ldlt().solve(core::Matrix6::Identity());
+}
+
+SurveyProblem makeSurveyProblem(const SurveyState& state, const GraphSlamOptions& options) {
+  std::vector<core::Isometry> poses;
+  for (const auto& keyframe : state.keyframes) poses.push_back(keyframe.T_map_vehicle);
+  SurveyProblem survey;
+  survey.graph = std::make_unique<GraphProblem>(poses);
+  GraphProblem& graph = *survey.graph;
+  for (int k = 1; k < state.chain.size(); ++k)
+    graph.addBetween(k - 1, k, state.chain.relative(k - 1, k), stepInformation(state.chain, k), nullptr);
+  const bool gravityKnown = options.useGravity && addGravity(state, graph);
+  addAnchor(state, gravityKnown, graph);
+  addClosures(state, options.closureLossWidth, graph);
+  if (options.waterline.enabled) survey.waterLevel = addWaterline(state, options.waterline, graph);
+  survey.gnss = addGnss(state, options.gnss, graph);
+  return survey;
+}
+
+}  // namespace s2s::graph
