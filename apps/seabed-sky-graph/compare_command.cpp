@@ -28,8 +28,8 @@ void printRow(const char* name, double cost, int iterations, double time_s) {
 /// The same graph through MRPT's Levenberg-Marquardt, measured by our cost.
 void runMrpt(graph::PoseGraph graph, int maxIterations) {
   auto network = graph::toMrptNetwork(graph);
-  mrpt::system::TParametersDouble parameters;
-  parameters["max_iterations"] = maxIterations;
+  mrpt::containers::yaml parameters;
+  parameters["max_iterations"] = static_cast<std::size_t>(maxIterations);
   mrpt::graphslam::TResultInfoSpaLevMarq info;
   const auto start = std::chrono::steady_clock::now();
   mrpt::graphslam::optimize_graph_spa_levmarq(network, info, nullptr, parameters);

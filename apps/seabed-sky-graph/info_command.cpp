@@ -40,8 +40,7 @@ int printInfo(const InfoArguments& arguments) {
               graph::countConnectedParts(graph) == 1 ? "" : " (not connected: their relative poses are unknown)");
   std::printf("cost         %.9g\n", graph::cost(graph));
   printExtent(graph);
-  for (const auto& [tag, count] : file.ignoredLines)
-    std::printf("ignored      %d lines '%s'\n", count, tag.c_str());
+  for (const auto& [tag, count] : file.ignoredLines) std::printf("ignored      %d lines '%s'\n", count, tag.c_str());
   return kSuccess;
 }
 

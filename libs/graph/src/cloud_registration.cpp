@@ -48,8 +48,8 @@ struct Partners {
   int count = 0;
 };
 
-Partners findPartners(const RegistrationTarget& target, const Cloud& source, const core::Isometry& T,
-                      double distance_m, double scale_m, std::size_t stride) {
+Partners findPartners(const RegistrationTarget& target, const Cloud& source, const core::Isometry& T, double distance_m,
+                      double scale_m, std::size_t stride) {
   Partners partners;
   RegistrationTarget::Plane plane;
   for (std::size_t p = 0; p < source.size(); p += stride) {
@@ -152,8 +152,8 @@ RegistrationResult registerCloud(const RegistrationTarget& target, const Cloud& 
     if (fine && step.head<3>().norm() < 5e-4 && step.tail<3>().norm() < 5e-5) break;
     if (!fine && settled) distance_m = std::max(0.6 * distance_m, options.finePartner_m);
   }
-  const Partners partners = findPartners(target, source, result.T_target_source, options.finePartner_m,
-                                         options.residualScale_m, 1);
+  const Partners partners =
+      findPartners(target, source, result.T_target_source, options.finePartner_m, options.residualScale_m, 1);
   result.overlap = static_cast<double>(partners.count) / static_cast<double>(source.size());
   result.rmse_m = partners.count > 0 ? std::sqrt(partners.squares / partners.count) : 0;
   result.constraint = weakestShare(partners.normals);

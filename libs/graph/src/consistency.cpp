@@ -41,10 +41,9 @@ double pairChi2(const OdometryChain& chain, const LoopClosure& a, const LoopClos
   const core::Isometry older = chain.relative(b.from, a.from);
   const core::Isometry afterNewer = back * older;
   const core::Matrix6 Ad_b = adjoint(b.T_from_to);
-  const core::Matrix6 covariance = transported(newer * afterNewer, a.covariance) +
-                                   transported(afterNewer, chain.covariance(a.to, b.to)) +
-                                   transported(older, Ad_b * b.covariance * Ad_b.transpose()) +
-                                   chain.covariance(b.from, a.from);
+  const core::Matrix6 covariance =
+      transported(newer * afterNewer, a.covariance) + transported(afterNewer, chain.covariance(a.to, b.to)) +
+      transported(older, Ad_b * b.covariance * Ad_b.transpose()) + chain.covariance(b.from, a.from);
   return mahalanobis(a.T_from_to * newer * afterNewer, covariance);
 }
 

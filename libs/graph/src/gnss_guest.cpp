@@ -11,8 +11,7 @@ struct Pairs {
   std::vector<Eigen::Vector3d> map, enu, sigma_m;
 };
 
-Pairs makePairs(const std::vector<TiedFix>& fixes, const std::vector<Keyframe>& keyframes,
-                const GnssOptions& options) {
+Pairs makePairs(const std::vector<TiedFix>& fixes, const std::vector<Keyframe>& keyframes, const GnssOptions& options) {
   Pairs pairs;
   std::vector<double> travelled_m;
   for (const auto& tied : fixes) {

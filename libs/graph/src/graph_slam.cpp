@@ -217,8 +217,7 @@ void GraphSlam::Impl::addGnss(const GnssFix& fix) {
   const Keyframe& keyframe = state_.keyframes.back();
   TiedFix tied{fix, keyframe.id, keyframe.T_odom_vehicle.inverse() * fix.T_odom_vehicle * fix.p_vehicle_antenna};
   if (!state_.fixes.empty()) {
-    const Eigen::Vector3d before =
-        state_.fixes.back().fix.T_odom_vehicle * state_.fixes.back().fix.p_vehicle_antenna;
+    const Eigen::Vector3d before = state_.fixes.back().fix.T_odom_vehicle * state_.fixes.back().fix.p_vehicle_antenna;
     const Eigen::Vector3d now = fix.T_odom_vehicle * fix.p_vehicle_antenna;
     if ((now - before).norm() < options_.gnss.minSpacing_m) return;
   }

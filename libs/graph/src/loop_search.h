@@ -16,8 +16,7 @@ struct ClosureCandidate {
 /// Candidates for the newest keyframe: the nearest passes by estimated position, and places that look alike.
 class LoopSearch {
  public:
-  LoopSearch(const LoopSearchOptions& options, const ScanContextOptions& places)
-      : options_(options), places_(places) {}
+  LoopSearch(const LoopSearchOptions& options, const ScanContextOptions& places) : options_(options), places_(places) {}
 
   /// Adds the newest keyframe's descriptor; call once a keyframe.
   void add(const SurveyState& state);

@@ -9,7 +9,7 @@ namespace s2s::graph {
 
 namespace {
 
-constexpr double kHeldSigma = 1e-4;       // metres and radians: stiff, yet far from numerically singular
+constexpr double kHeldSigma = 1e-4;         // metres and radians: stiff, yet far from numerically singular
 constexpr double kFreeTiltSigma_rad = 0.2;  // of the first keyframe, when gravity tells its roll and pitch
 
 void addAnchor(const SurveyState& state, bool gravityKnown, GraphProblem& graph) {

@@ -39,8 +39,7 @@ void BetweenFactor::jacobianA(const Eigen::Vector3d& t_a_b, const Eigen::Quatern
   core::Matrix6 J = core::Matrix6::Zero();
   J.topLeftCorner<3, 3>() = -R_measuredInverse_;
   J.topRightCorner<3, 3>() = R_measuredInverse_ * core::skew(t_a_b);
-  J.bottomRightCorner<3, 3>() =
-      -(D.w() * Eigen::Matrix3d::Identity() - core::skew(D.vec())) * R_measuredInverse_;
+  J.bottomRightCorner<3, 3>() = -(D.w() * Eigen::Matrix3d::Identity() - core::skew(D.vec())) * R_measuredInverse_;
   LocalJacobian<6>(data).local() = sqrtInformation_ * J;
 }
 

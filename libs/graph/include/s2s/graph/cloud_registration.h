@@ -7,14 +7,14 @@
 namespace s2s::graph {
 
 struct RegistrationOptions {
-  double voxel_m = 0.25;             ///< thinning of the target submap
-  int normalNeighbours = 12;         ///< points that define a target point's plane
-  double coarsePartner_m = 3.0;      ///< largest distance of partners in the first iterations
-  double finePartner_m = 0.5;        ///< and in the last
+  double voxel_m = 0.25;         ///< thinning of the target submap
+  int normalNeighbours = 12;     ///< points that define a target point's plane
+  double coarsePartner_m = 3.0;  ///< largest distance of partners in the first iterations
+  double finePartner_m = 0.5;    ///< and in the last
   int maxIterations = 40;
-  double residualScale_m = 0.1;      ///< width of the robust weight (Geman-McClure) in the last iterations
-  double minOverlap = 0.5;           ///< share of source points with a partner
-  double maxRmse_m = 0.15;           ///< of the point-to-plane distances of partners
+  double residualScale_m = 0.1;  ///< width of the robust weight (Geman-McClure) in the last iterations
+  double minOverlap = 0.5;       ///< share of source points with a partner
+  double maxRmse_m = 0.15;       ///< of the point-to-plane distances of partners
   /// Smallest share of the normals' information in the weakest direction of translation: 1/3 is a cube, 0 a plane or
   /// an endless straight canal.
   double minConstraint = 0.003;

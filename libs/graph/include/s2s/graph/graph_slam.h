@@ -25,7 +25,7 @@ struct GraphStatistics {
   int keyframes = 0;
   int candidates = 0, accepted = 0, pending = 0, rejected = 0;  ///< loop closures
   int optimisations = 0;
-  SolveSummary last;        ///< the last optimisation
+  SolveSummary last;                        ///< the last optimisation
   double optimisation_s = 0, search_s = 0;  ///< time spent in all
 };
 

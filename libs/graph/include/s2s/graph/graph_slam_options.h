@@ -11,22 +11,22 @@ namespace s2s::graph {
 
 struct LoopSearchOptions {
   bool enabled = true;
-  double minTravel_m = 25;     ///< a closure joins keyframes at least so far apart along the path
-  double radius_m = 10;        ///< proximity: distance of the estimated positions
-  double searchEvery_m = 2;    ///< path between two searches
-  int proximityCandidates = 2; ///< registrations a search
+  double minTravel_m = 25;      ///< a closure joins keyframes at least so far apart along the path
+  double radius_m = 10;         ///< proximity: distance of the estimated positions
+  double searchEvery_m = 2;     ///< path between two searches
+  int proximityCandidates = 2;  ///< registrations a search
   int descriptorCandidates = 1;
-  double submap_m = 4;         ///< path on either side of a candidate that makes up the submap to register against
+  double submap_m = 4;  ///< path on either side of a candidate that makes up the submap to register against
 };
 
 /// A soft prior that a floating vessel stays at the water surface, whose height is estimated and may drift.
 struct WaterlineOptions {
   bool enabled = false;
-  double height_m = 0;          ///< vehicle origin above the surface at rest
-  double sigma_m = 0.1;         ///< heave and trim
-  double driftSigma_m = 0.02;   ///< change of the surface between two sections (tide)
+  double height_m = 0;         ///< vehicle origin above the surface at rest
+  double sigma_m = 0.1;        ///< heave and trim
+  double driftSigma_m = 0.02;  ///< change of the surface between two sections (tide)
   double section_s = 60;
-  double lossWidth = 2;         ///< of the robust losses, in standard deviations; locks and wash are outliers
+  double lossWidth = 2;  ///< of the robust losses, in standard deviations; locks and wash are outliers
 };
 
 struct GraphSlamOptions {

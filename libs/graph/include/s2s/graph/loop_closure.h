@@ -14,14 +14,14 @@ enum class ClosureSource {
 
 /// What became of a candidate.
 enum class ClosureStatus {
-  accepted,                   ///< in the graph
-  pending,                    ///< verified, but not yet supported by another closure
-  rejectedOverlap,            ///< too few points found a partner
-  rejectedResidual,           ///< the clouds do not lie on each other
-  rejectedDegenerate,         ///< the clouds do not determine the pose
-  rejectedByOdometry,         ///< contradicts the odometry beyond its covariance
-  rejectedByOthers,           ///< not among the largest set of closures that agree with each other
-  rejectedByOptimiser         ///< contradicts the optimised graph
+  accepted,            ///< in the graph
+  pending,             ///< verified, but not yet supported by another closure
+  rejectedOverlap,     ///< too few points found a partner
+  rejectedResidual,    ///< the clouds do not lie on each other
+  rejectedDegenerate,  ///< the clouds do not determine the pose
+  rejectedByOdometry,  ///< contradicts the odometry beyond its covariance
+  rejectedByOthers,    ///< not among the largest set of closures that agree with each other
+  rejectedByOptimiser  ///< contradicts the optimised graph
 };
 
 const char* closureSourceName(ClosureSource source);
@@ -35,9 +35,9 @@ struct LoopClosure {
   core::Matrix6 covariance = core::Matrix6::Zero();  ///< body perturbation, translation before rotation
   ClosureSource source = ClosureSource::proximity;
   ClosureStatus status = ClosureStatus::pending;
-  double overlap = 0;        ///< share of the newer cloud's points with a partner
-  double rmse_m = 0;         ///< of the point-to-plane distances of those
-  double odometryChi2 = 0;   ///< squared Mahalanobis distance to the odometry, 6 degrees of freedom
+  double overlap = 0;       ///< share of the newer cloud's points with a partner
+  double rmse_m = 0;        ///< of the point-to-plane distances of those
+  double odometryChi2 = 0;  ///< squared Mahalanobis distance to the odometry, 6 degrees of freedom
 };
 
 }  // namespace s2s::graph

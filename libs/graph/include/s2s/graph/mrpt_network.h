@@ -12,7 +12,8 @@ namespace s2s::graph {
 core::Matrix6 informationToMrpt(const core::Isometry& T, const core::Matrix6& information_body);
 core::Matrix6 informationFromMrpt(const core::Isometry& T, const core::Matrix6& information_xyzypr);
 
-/// The graph as MRPT's own type: nodes, constraints with information, and as root the first fixed node (else the first).
+/// The graph as MRPT's own type: nodes, constraints with information, and as root the first fixed node (else the
+/// first).
 mrpt::graphs::CNetworkOfPoses3DInf toMrptNetwork(const PoseGraph& graph);
 PoseGraph fromMrptNetwork(const mrpt::graphs::CNetworkOfPoses3DInf& network);
 

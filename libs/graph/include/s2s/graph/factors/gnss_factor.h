@@ -12,7 +12,8 @@ constexpr int kAlignmentSize = 4;
 /// T_enu_map from such a block; both frames have z up.
 core::Isometry alignmentFromBlock(const double* block);
 
-/// Position of a GNSS antenna: S (T_enu_map T_map_vehicle p_vehicle_antenna - p_enu), S the inverse standard deviations.
+/// Position of a GNSS antenna: S (T_enu_map T_map_vehicle p_vehicle_antenna - p_enu), S the inverse standard
+/// deviations.
 class GnssFactor final : public ceres::SizedCostFunction<3, kPoseSize, kAlignmentSize> {
  public:
   GnssFactor(const Eigen::Vector3d& p_enu, const Eigen::Vector3d& p_vehicle_antenna, const Eigen::Vector3d& sigma_m);
