@@ -19,7 +19,8 @@ SonarOptions verticalSonarDefaults() {
   o.rangeCount = 800;
   o.frequency_hz = 2250e3;
   o.absorption_dbPerM = 1.6;
-  o.tvgAbsorption_dbPerM = 2.2;
+  o.tvgAbsorption_dbPerM = 2.4;
+  o.noiseLevel_db = 72;
   o.pulseLength_m = 0.02;
   return o;
 }

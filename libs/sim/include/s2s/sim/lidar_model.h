@@ -15,13 +15,13 @@ struct LidarOptions {
   int rows = 64, columns = 1024;
   double rate_hz = 10;
   double verticalFov_rad = 45 * M_PI / 180;
-  double minRange_m = 0.5, maxRange_m = 90;
+  double minRange_m = 0.5, maxRange_m = 120;
 
   // Effects
   bool noise = true;
   double rangeSigma_m = 0.012;             ///< at normal incidence on a bright surface
   double rangeSigmaFar_mPerM = 1.0e-4;     ///< grows with range
-  double dropoutReflectivityRange_m = 90;  ///< a white surface is lost with a probability of one half at this range
+  double dropoutReflectivityRange_m = 200; ///< a white surface is lost with a probability of one half at this range
 };
 
 /// Casts each column from the vessel's pose at the column's own time. Safe to use from many threads.
