@@ -1,0 +1,57 @@
+#pragma once
+
+#include "s2s/odometry/imu_buffer.h"
+#include "s2s/odometry/nav_state.h"
+#include "s2s/odometry/options.h"
+
+namespace s2s::odometry {
+
+/// Exact derivative of one step of motion: errors after = F errors before + noise of covariance Q.
+struct StepModel {
+  NavState state;  ///< after the step
+  ErrorMatrix F, Q;
+};
+
+/// One step of strapdown navigation with midpoint attitude, its Jacobian and its noise.
+///
+/// A step that was not measured keeps the velocity: its specific force is taken to balance gravity, and the motion
+/// options give the noise. Without any IMU gravity is zero and `-gyroBias` serves as the turn rate, which makes the
+/// same equations a constant-velocity model.
+StepModel propagated(const NavState& state, const MotionStep& step, const ImuOptions& imu, const MotionOptions& motion,
+                     bool hasImu);
+
+/// Error-state Kalman filter of the IMU's motion. Poses that somebody measured enter as Gaussian knowledge of the pose
+/// block; all other states follow through their correlation with it.
+class InertialFilter {
+ public:
+  InertialFilter(const ImuOptions& imu, const MotionOptions& motion, bool hasImu)
+      : imu_(imu), motion_(motion), hasImu_(hasImu) {}
+
+  void reset(const NavState& state, const ErrorMatrix& covariance);
+
+  const NavState& state() const { return state_; }
+  const ErrorMatrix& covariance() const { return covariance_; }
+  bool hasImu() const { return hasImu_; }
+
+  /// Moves on by steps; the states after each step are appended to `path` if given.
+  void propagate(const std::vector<MotionStep>& steps, std::vector<NavState>* path = nullptr);
+
+  /// Covariance of (position in odom, rotation vector in imu).
+  core::Matrix6 poseCovariance() const { return covariance_.topLeftCorner<6, 6>(); }
+
+  /// Replaces the belief about the pose by `posterior` with `covariance`, as found by a registration that had this
+  /// filter's own pose as prior; the rest of the state follows.
+  void setPosePosterior(const core::Isometry& T_odom_imu, const core::Matrix6& covariance);
+
+  /// Takes a pose measured by something independent of the filter.
+  void measurePose(const core::Isometry& T_odom_imu, const core::Matrix6& noise);
+
+ private:
+  ImuOptions imu_;
+  MotionOptions motion_;
+  bool hasImu_;
+  NavState state_;
+  ErrorMatrix covariance_ = ErrorMatrix::Zero();
+};
+
+}  // namespace s2s::odometry

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "s2s/core/time.h"
+#include "s2s/core/transform.h"
+
+namespace s2s::odometry {
+
+/// Motion of the IMU in the odometry's frame, and what its readings are off by.
+struct NavState {
+  core::TimeNs time = 0;
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Matrix3d R_odom_imu = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();   ///< [m/s], in odom
+  Eigen::Vector3d gyroBias = Eigen::Vector3d::Zero();   ///< [rad/s], in imu
+  Eigen::Vector3d accelBias = Eigen::Vector3d::Zero();  ///< [m/s^2], in imu
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();    ///< [m/s^2], in odom; points down
+
+  core::Isometry T_odom_imu() const {
+    core::Isometry T = core::Isometry::Identity();
+    T.linear() = R_odom_imu;
+    T.translation() = position;
+    return T;
+  }
+};
+
+/// Error of a state: position, velocity, biases and gravity add; the rotation vector multiplies from the right.
+constexpr int kErrorSize = 18;
+constexpr int kPosition = 0, kRotation = 3, kVelocity = 6, kGyroBias = 9, kAccelBias = 12, kGravity = 15;
+using ErrorVector = Eigen::Matrix<double, kErrorSize, 1>;
+using ErrorMatrix = Eigen::Matrix<double, kErrorSize, kErrorSize>;
+
+/// The state moved by an error, and the error that moves `from` to `to`.
+NavState moved(const NavState& state, const ErrorVector& error);
+ErrorVector errorBetween(const NavState& from, const NavState& to);
+
+}  // namespace s2s::odometry

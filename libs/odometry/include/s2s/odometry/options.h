@@ -1,0 +1,93 @@
+#pragma once
+
+#include <vector>
+
+namespace s2s::odometry {
+
+/// Which returns of a sweep are looked at.
+struct ScanOptions {
+  double minRange_m = 1.0;
+  double maxRange_m = 150.0;
+  /// Every n-th row and column of an organised sweep, or every n-th point of a cloud; 0: as `maxPoints` asks.
+  int rowStride = 0;
+  int columnStride = 0;
+  int maxPoints = 16384;  ///< number of pixels looked at in a sweep when the strides are automatic
+  /// Box of the vessel itself in its own frame: x, y, z of the least corner, then of the greatest [m]; empty: none.
+  std::vector<double> hullBox;
+};
+
+/// Error model and limits of the IMU. Densities are continuous-time: a sample of rate f has density * sqrt(f).
+struct ImuOptions {
+  double gyroNoise_radps_rthz = 1.0e-3;
+  double accelNoise_mps2_rthz = 1.0e-2;
+  double gyroBiasWalk_radps2_rthz = 2.0e-5;
+  double accelBiasWalk_mps3_rthz = 2.0e-4;
+  double gyroBiasSigma_radps = 0.01;
+  double accelBiasSigma_mps2 = 0.1;
+  double gravity_mps2 = 9.81;
+  double maxGap_s = 0.1;  ///< longer silence is bridged with constant velocity and turn rate
+};
+
+/// What the vehicle may do where no IMU says what it does: white linear and angular acceleration.
+struct MotionOptions {
+  double acceleration_mps2_rthz = 0.8;
+  double angularAcceleration_radps2_rthz = 0.3;
+  double initialSpeedSigma_mps = 3.0;
+  double initialTurnRateSigma_radps = 0.2;
+};
+
+/// The map of planes that scans are registered to.
+struct PlaneMapOptions {
+  double voxel_m = 0.4;  ///< edge of the finest voxels; each level above doubles it
+  int levels = 3;
+  int minPoints = 6;             ///< for a plane
+  int maxPoints = 100;           ///< a voxel with this many points is settled and takes no more
+  double maxThickness_m = 0.06;  ///< standard deviation across a plane; thicker voxels are left to finer levels
+  double radius_m = 200.0;       ///< voxels further from the vehicle are forgotten
+};
+
+/// Scan-to-map registration.
+struct RegistrationOptions {
+  double scanVoxel_m = 0.6;        ///< one point in each such cube is registered
+  double mapVoxel_m = 0.15;        ///< one point in each such cube enters the map
+  double rangeSigma_m = 0.02;      ///< noise of a range
+  double angleSigma_rad = 0.5e-3;  ///< noise of a direction; footprint and surface roughness included
+  int maxIterations = 12;
+  int minMatches = 60;
+  double gateSigma = 3.5;  ///< matches further off than this many standard deviations are left out
+  double stopTranslation_m = 5.0e-4;
+  double stopRotation_rad = 2.0e-5;
+  /// A direction is degenerate when the mean squared cosine between it and the surface normals (for rotations: of the
+  /// unit lever's velocity) that remains after all other directions are free is below this.
+  double degeneracyRatio = 2.0e-3;
+  /// Residuals of neighbouring points are not independent: the information counts as that of N / this many.
+  double correlation = 4.0;
+};
+
+/// Knowledge that the vehicle floats. Only used with an IMU, which tells where down is.
+struct WaterOptions {
+  bool rejectBelow = false;  ///< leave out returns below the surface
+  double height_m = 0.0;     ///< height of the surface in the vehicle's frame, at rest
+  double margin_m = 0.3;     ///< returns this little above the surface are left out, too
+};
+
+/// Use of the IMU.
+enum class ImuUse {
+  automatic,  ///< use it if samples come before or within the first second of scans
+  never
+};
+
+/// All of the odometry.
+struct OdometryOptions {
+  ImuUse imuUse = ImuUse::automatic;
+  double initialisation_s = 1.0;  ///< this much of the record is looked at before the first pose
+  double maxImuDelay_s = 0.5;     ///< a scan is not held back longer than this for missing IMU samples
+  ScanOptions scan;
+  ImuOptions imu;
+  MotionOptions motion;
+  PlaneMapOptions map;
+  RegistrationOptions registration;
+  WaterOptions water;
+};
+
+}  // namespace s2s::odometry

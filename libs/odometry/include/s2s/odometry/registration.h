@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "s2s/core/transform.h"
+#include "s2s/odometry/options.h"
+#include "s2s/odometry/plane_map.h"
+
+namespace s2s::odometry {
+
+/// Points of one moment in a body frame, with the variance of each along any direction.
+struct BodyPoints {
+  std::vector<Eigen::Vector3d> points_body;  ///< [m]
+  std::vector<double> variance_m2;
+};
+
+/// Gaussian belief about T_map_body: errors are (translation in map, added; rotation vector in body, from the right).
+struct PoseBelief {
+  core::Isometry T_map_body = core::Isometry::Identity();
+  core::Matrix6 covariance = core::Matrix6::Identity();
+};
+
+enum class RegistrationEnd { converged, iterationLimit, tooFewMatches };
+
+struct RegistrationResult {
+  RegistrationEnd end = RegistrationEnd::tooFewMatches;
+  PoseBelief pose;                                    ///< posterior; the prior if there were too few matches
+  core::Matrix6 information = core::Matrix6::Zero();  ///< of the scan alone, without degenerate directions
+  int iterations = 0;
+  std::size_t matches = 0;   ///< points with a plane, within the gate
+  double residualScale = 0;  ///< robust scale of the residuals over their expected standard deviation; 1 is ideal
+  std::vector<Eigen::Vector3d> degenerateTranslations_map;  ///< unit directions along which the scan says nothing
+  std::vector<Eigen::Vector3d> degenerateRotations_body;    ///< unit axes
+};
+
+/// Sums of the weighted point-to-plane problem at one pose.
+struct NormalEquations {
+  core::Matrix6 A = core::Matrix6::Zero();  ///< sum of w h h^T
+  core::Vector6 b = core::Vector6::Zero();  ///< sum of w h r
+  double weight = 0;                        ///< sum of w [1/m^2]
+  double leverWeight = 0;                   ///< sum of w |p_body|^2
+  std::size_t matches = 0;
+  double residualScale = 0;
+};
+
+/// Point-to-plane residuals r = n . (T p) - d with their Jacobian h at `T`, weighted by 1 / (point + plane variance)
+/// and a Cauchy kernel whose width is the larger of the expected and the observed (median) size of the residuals.
+/// `prior` only sets the gate around its own pose.
+NormalEquations linearise(const BodyPoints& points, const PlaneMap& map, const core::Isometry& T,
+                          const core::Matrix6& priorCovariance, const RegistrationOptions& options);
+
+/// Takes what a scan cannot see out of the equations.
+void removeDegenerate(NormalEquations& equations, double ratio, RegistrationResult& result);
+
+/// Most probable pose given a prior and the scan's points on the map's planes (iterated, with the points matched anew
+/// in each iteration), and its covariance: the update of an iterated Kalman filter in its pose block.
+RegistrationResult registerPoints(const BodyPoints& points, const PlaneMap& map, const PoseBelief& prior,
+                                  const core::Isometry& T_start, const RegistrationOptions& options);
+
+}  // namespace s2s::odometry

@@ -1,0 +1,117 @@
+#include "s2s/odometry/lidar_inertial_odometry.h"
+
+#include "s2s/core/error.h"
+#include "s2s/odometry/point_filter.h"
+#include "scan_tracker.h"
+#include "start_state.h"
+
+namespace s2s::odometry {
+
+namespace {
+
+/// Without IMU these many scans tell the speed at the start.
+constexpr std::size_t kLidarOnlyRehearsal = 4;
+
+OdometryResult skipped(const Scan& scan, OdometryReason reason) {
+  OdometryResult result;
+  result.reason = reason;
+  result.scanTime = scan.time;
+  result.time = scan.endTime();
+  result.ownHullCount = scan.ownHullCount;
+  result.outOfRangeCount = scan.outOfRangeCount;
+  return result;
+}
+
+}  // namespace
+
+LidarInertialOdometry::LidarInertialOdometry(const OdometryOptions& options) : options_(options) {
+  const PointFilter checkedHere(options.scan, core::Isometry::Identity());
+  if (options.scan.minRange_m >= options.scan.maxRange_m)
+    throw core::ConfigError("the least range is not below the greatest", "[odometry] min_range_m, max_range_m",
+                            "give a greatest range above the least");
+}
+LidarInertialOdometry::~LidarInertialOdometry() = default;
+LidarInertialOdometry::LidarInertialOdometry(LidarInertialOdometry&&) noexcept = default;
+LidarInertialOdometry& LidarInertialOdometry::operator=(LidarInertialOdometry&&) noexcept = default;
+
+bool LidarInertialOdometry::usesImu() const { return tracker_ && tracker_->filter().hasImu(); }
+
+void LidarInertialOdometry::addImu(const ImuSample& sample) {
+  if (options_.imuUse == ImuUse::never || (tracker_ && !usesImu()))
+    ++faults_.imuIgnored;
+  else if (!imu_.add(sample))
+    ++faults_.imuRefused;
+}
+
+void LidarInertialOdometry::addScan(Scan scan) { waiting_.push_back(std::move(scan)); }
+
+std::optional<OdometryResult> LidarInertialOdometry::next() {
+  if (waiting_.empty()) return std::nullopt;
+  const Scan& scan = waiting_.front();
+  OdometryResult result;
+  if (scan.points_sensor.empty()) {
+    ++faults_.scansEmpty;
+    result = skipped(scan, OdometryReason::emptyScan);
+  } else if (scan.endTime() <= lastScanEnd_) {
+    ++faults_.scansTimeNotIncreasing;
+    result = skipped(scan, OdometryReason::timeNotIncreasing);
+  } else {
+    if (!tracker_ && !tryStart()) return std::nullopt;
+    if (!isReady(scan)) return std::nullopt;
+    result = process(scan);
+  }
+  waiting_.pop_front();
+  return result;
+}
+
+bool LidarInertialOdometry::isReady(const Scan& scan) const {
+  if (isFinished_ || !usesImu()) return true;
+  if (!imu_.empty() && imu_.lastTime() >= scan.endTime()) return true;
+  return core::secondsBetween(scan.endTime(), waiting_.back().endTime()) > options_.maxImuDelay_s;
+}
+
+OdometryResult LidarInertialOdometry::process(const Scan& scan) {
+  OdometryResult result = tracker_->track(scan, imu_);
+  lastScanEnd_ = scan.endTime();
+  if (tracker_->bridgedImu()) ++faults_.imuGaps;
+  if (result.status == OdometryStatus::deadReckoned) ++faults_.scansDeadReckoned;
+  for (const auto& pose : result.path) trajectory_.append(pose.time, pose.T);
+  if (!imu_.empty()) imu_.forgetBefore(scan.endTime());
+  return result;
+}
+
+bool LidarInertialOdometry::tryStart() {
+  const Scan& first = waiting_.front();
+  const core::TimeNs windowEnd = first.endTime() + core::durationNs(options_.initialisation_s);
+  const bool scansSuffice = waiting_.back().endTime() >= windowEnd;
+  const bool imuSuffices = !imu_.empty() && imu_.lastTime() >= windowEnd;
+  const bool mayUseImu = options_.imuUse != ImuUse::never;
+  const bool lidarOnlyReady = !mayUseImu && waiting_.size() >= kLidarOnlyRehearsal;
+  const bool imuIsLate =
+      scansSuffice && core::secondsBetween(windowEnd, waiting_.back().endTime()) > options_.maxImuDelay_s;
+  if (!isFinished_ && !lidarOnlyReady && !imuSuffices && !imuIsLate) return false;
+
+  const bool hasImu = mayUseImu && !imu_.empty() && imu_.samples().front().time < windowEnd;
+  const core::Isometry T_vehicle_imu = hasImu ? imu_.samples().front().T_vehicle_imu : core::Isometry::Identity();
+  const StartState rough =
+      hasImu ? inertialStart(imu_, first.time, windowEnd, options_) : lidarOnlyStart(first.time, options_);
+
+  ScanTracker rehearsal(options_, hasImu, T_vehicle_imu);
+  rehearsal.start(rough.state, rough.covariance);
+  std::size_t rehearsed = 0;
+  core::TimeNs lastEnd = first.time;
+  for (const Scan& scan : waiting_) {
+    if (scan.endTime() > windowEnd || (!hasImu && rehearsed == kLidarOnlyRehearsal)) break;
+    if (scan.points_sensor.empty() || scan.endTime() <= lastEnd) continue;
+    rehearsal.track(scan, imu_);
+    lastEnd = scan.endTime();
+    ++rehearsed;
+  }
+  const StartState start = rehearsed >= 3 ? refinedStart(rough, rehearsal.filter(), imu_, options_) : rough;
+  tracker_ = std::make_unique<ScanTracker>(options_, hasImu, T_vehicle_imu);
+  tracker_->start(start.state, start.covariance);
+  trajectory_.append(first.time, tracker_->T_odom_vehicle());
+  return true;
+}
+
+}  // namespace s2s::odometry

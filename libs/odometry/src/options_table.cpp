@@ -1,0 +1,93 @@
+#include "s2s/odometry/options_table.h"
+
+namespace s2s::odometry {
+
+namespace {
+
+using core::atLeast;
+using core::OptionTable;
+using core::positive;
+
+void addScan(OptionTable& table, ScanOptions& o) {
+  table.add("min_range_m", o.minRange_m, "nearer returns are left out", atLeast(0))
+      .add("max_range_m", o.maxRange_m, "farther returns are left out", positive())
+      .add("row_stride", o.rowStride, "look at every n-th row of an organised sweep; 0: automatic", atLeast(0))
+      .add("column_stride", o.columnStride, "look at every n-th column; 0: automatic", atLeast(0))
+      .add("max_points", o.maxPoints, "pixels looked at in a sweep with automatic strides", atLeast(1000))
+      .addList("hull_box", o.hullBox,
+               "the vessel itself in its own frame: x y z of the least corner, x y z of the greatest, m; empty: none");
+}
+
+void addImu(OptionTable& table, ImuOptions& o) {
+  table.add("gyro_noise_radps_rthz", o.gyroNoise_radps_rthz, "gyro noise density", positive())
+      .add("accel_noise_mps2_rthz", o.accelNoise_mps2_rthz, "accelerometer noise density", positive())
+      .add("gyro_bias_walk_radps2_rthz", o.gyroBiasWalk_radps2_rthz, "random walk of the gyro's bias", atLeast(0))
+      .add("accel_bias_walk_mps3_rthz", o.accelBiasWalk_mps3_rthz, "random walk of the accelerometer's bias",
+           atLeast(0))
+      .add("gyro_bias_sigma_radps", o.gyroBiasSigma_radps, "gyro bias to be expected at switch-on", positive())
+      .add("accel_bias_sigma_mps2", o.accelBiasSigma_mps2, "accelerometer bias to be expected", positive())
+      .add("gravity_mps2", o.gravity_mps2, "local gravity", {9.7, 9.9})
+      .add("imu_max_gap_s", o.maxGap_s, "longer silence of the IMU is bridged with constant velocity", positive());
+}
+
+void addMotion(OptionTable& table, MotionOptions& o) {
+  table
+      .add("acceleration_mps2_rthz", o.acceleration_mps2_rthz,
+           "how fast the speed changes where no IMU tells: density of white acceleration", positive())
+      .add("angular_acceleration_radps2_rthz", o.angularAcceleration_radps2_rthz, "the same of the turn rate",
+           positive())
+      .add("initial_speed_sigma_mps", o.initialSpeedSigma_mps, "speed to be expected at the start", positive())
+      .add("initial_turn_rate_sigma_radps", o.initialTurnRateSigma_radps, "turn rate to be expected at the start",
+           positive());
+}
+
+void addMap(OptionTable& table, PlaneMapOptions& o) {
+  table.add("map_voxel_m", o.voxel_m, "edge of the map's finest voxels; each level above doubles it", positive())
+      .add("map_levels", o.levels, "number of voxel sizes", {1, 6})
+      .add("map_min_points", o.minPoints, "points a voxel needs for a plane", atLeast(3))
+      .add("map_max_points", o.maxPoints, "points after which a voxel is settled", atLeast(3))
+      .add("map_max_thickness_m", o.maxThickness_m, "standard deviation across a plane; thicker is no plane",
+           positive())
+      .add("map_radius_m", o.radius_m, "voxels farther from the vehicle are forgotten", positive());
+}
+
+void addRegistration(OptionTable& table, RegistrationOptions& o) {
+  table.add("scan_voxel_m", o.scanVoxel_m, "one point in each such cube is registered", positive())
+      .add("insert_voxel_m", o.mapVoxel_m, "one point in each such cube enters the map", positive())
+      .add("range_sigma_m", o.rangeSigma_m, "noise of a range", positive())
+      .addDegrees("angle_sigma_deg", o.angleSigma_rad, "noise of a direction", atLeast(0))
+      .add("max_iterations", o.maxIterations, "of a registration", atLeast(1))
+      .add("min_matches", o.minMatches, "points on known planes below which a scan is not registered", atLeast(6))
+      .add("gate_sigma", o.gateSigma, "matches further off than this many standard deviations are left out", positive())
+      .add("stop_translation_m", o.stopTranslation_m, "a smaller step ends the iterations", positive())
+      .addDegrees("stop_rotation_deg", o.stopRotation_rad, "and a smaller rotation", positive())
+      .add("degeneracy_ratio", o.degeneracyRatio,
+           "directions with less than this share of the scan's information are held by the motion model", {0, 1})
+      .add("correlation", o.correlation, "this many neighbouring residuals count as one independent", atLeast(1));
+}
+
+void addWater(OptionTable& table, WaterOptions& o) {
+  table.add("water_rejection", o.rejectBelow, "leave out returns below the water (needs an IMU)")
+      .add("water_height_m", o.height_m, "height of the water in the vehicle's frame at rest")
+      .add("water_margin_m", o.margin_m, "returns this little above the water are left out, too", atLeast(0));
+}
+
+}  // namespace
+
+core::OptionTable optionTable(OdometryOptions& o) {
+  OptionTable table;
+  table
+      .addChoice<ImuUse>("imu", o.imuUse, {{"automatic", ImuUse::automatic}, {"never", ImuUse::never}},
+                         "use of the IMU: automatic takes it if there is one")
+      .add("initialisation_s", o.initialisation_s, "stretch of the record looked at before the first pose", positive())
+      .add("imu_max_delay_s", o.maxImuDelay_s, "how long a scan waits for missing IMU samples", atLeast(0));
+  addScan(table, o.scan);
+  addImu(table, o.imu);
+  addMotion(table, o.motion);
+  addMap(table, o.map);
+  addRegistration(table, o.registration);
+  addWater(table, o.water);
+  return table;
+}
+
+}  // namespace s2s::odometry

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "s2s/odometry/imu_buffer.h"
+#include "s2s/odometry/inertial_filter.h"
+#include "s2s/odometry/options.h"
+
+namespace s2s::odometry {
+
+/// A filter's first belief.
+struct StartState {
+  NavState state;
+  ErrorMatrix covariance = ErrorMatrix::Zero();
+  bool isStatic = false;  ///< the IMU felt no motion
+};
+
+/// First belief with an IMU: up is the mean specific force from `start` to `end`, rotated back to `start` by the gyro.
+/// At rest the gyro's bias is its mean reading, and the speed is zero; in motion both are open.
+StartState inertialStart(const ImuBuffer& imu, core::TimeNs start, core::TimeNs end, const OdometryOptions& options);
+
+/// First belief without IMU.
+StartState lidarOnlyStart(core::TimeNs start, const OdometryOptions& options);
+
+/// Improves a first belief by what the filter knew after it had run once over the first scans: gravity, biases, speed.
+StartState refinedStart(const StartState& rough, const InertialFilter& rehearsed, const ImuBuffer& imu,
+                        const OdometryOptions& options);
+
+/// Rotation whose z axis is `up_body` seen from the body, and whose x axis is the body's heading.
+Eigen::Matrix3d levelRotation(const Eigen::Vector3d& up_body);
+
+}  // namespace s2s::odometry
