@@ -68,8 +68,9 @@ World canal() {
 
 Path roomPath() {
   return [](double t) {
-    return core::isometryFromXyzYpr(2.5 * std::sin(0.35 * t), 1.8 * std::sin(0.27 * t + 0.4), 0.8 + 0.2 * std::sin(0.7 * t),
-                                    0.6 * std::sin(0.31 * t), 0.05 * std::sin(1.3 * t), 0.08 * std::sin(1.1 * t + 1));
+    return core::isometryFromXyzYpr(2.5 * std::sin(0.35 * t), 1.8 * std::sin(0.27 * t + 0.4),
+                                    0.8 + 0.2 * std::sin(0.7 * t), 0.6 * std::sin(0.31 * t), 0.05 * std::sin(1.3 * t),
+                                    0.08 * std::sin(1.1 * t + 1));
   };
 }
 
@@ -82,7 +83,8 @@ Path cruise(double speed_mps, double y, double z) {
 
 core::TimeNs timeOf(double t) { return 1'700'000'000 * core::kNsPerSecond + core::durationNs(t); }
 
-ImuSample imuAt(const Path& path, double t, const core::Isometry& T_vehicle_imu, const ImuNoise& noise, Random& random) {
+ImuSample imuAt(const Path& path, double t, const core::Isometry& T_vehicle_imu, const ImuNoise& noise,
+                Random& random) {
   // Central differences: the error is h^2/6 of a higher derivative, below 1e-6 here.
   constexpr double h = 1e-3;
   const core::Isometry before = path(t - h) * T_vehicle_imu, now = path(t) * T_vehicle_imu,
@@ -98,7 +100,8 @@ ImuSample imuAt(const Path& path, double t, const core::Isometry& T_vehicle_imu,
   return sample;
 }
 
-obs::CObservationLidarSweep sweepAt(const World& world, const Path& path, double t, const Lidar& lidar, Random& random) {
+obs::CObservationLidarSweep sweepAt(const World& world, const Path& path, double t, const Lidar& lidar,
+                                    Random& random) {
   obs::CObservationLidarSweep sweep;
   sweep.timestamp = core::toMrptTime(timeOf(t));
   sweep.sensorLabel = "LIDAR";
@@ -109,8 +112,8 @@ obs::CObservationLidarSweep sweepAt(const World& world, const Path& path, double
   sweep.echoes[0].range.resize(sweep.pixelCount());
   sweep.echoes[0].reflectivity.assign(sweep.pixelCount(), 7);
   for (int row = 0; row < lidar.rows; ++row)
-    sweep.beamAltitude_rad.push_back(static_cast<float>(
-        lidar.highest_rad - (lidar.highest_rad - lidar.lowest_rad) * row / std::max(1, lidar.rows - 1)));
+    sweep.beamAltitude_rad.push_back(static_cast<float>(lidar.highest_rad - (lidar.highest_rad - lidar.lowest_rad) *
+                                                                                row / std::max(1, lidar.rows - 1)));
   for (int column = 0; column < lidar.columns; ++column) {
     sweep.columnAzimuth_rad.push_back(static_cast<float>(-2 * M_PI * column / lidar.columns));
     sweep.columnTime_ns.push_back(static_cast<std::int32_t>(1e9 * lidar.period_s * column / lidar.columns));

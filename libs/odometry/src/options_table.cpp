@@ -62,7 +62,9 @@ void addRegistration(OptionTable& table, RegistrationOptions& o) {
       .add("stop_translation_m", o.stopTranslation_m, "a smaller step ends the iterations", positive())
       .addDegrees("stop_rotation_deg", o.stopRotation_rad, "and a smaller rotation", positive())
       .add("degeneracy_ratio", o.degeneracyRatio,
-           "directions with less than this share of the scan's information are held by the motion model", {0, 1})
+           "directions known less than this many times what the noise of the normals pretends are held by the motion "
+           "model",
+           atLeast(0))
       .add("correlation", o.correlation, "this many neighbouring residuals count as one independent", atLeast(1));
 }
 

@@ -13,6 +13,8 @@ namespace {
 constexpr double kLeastExtent = 0.08;
 /// A plane's thickness may be at most this share of its smaller extent.
 constexpr double kMostAspect = 0.35;
+/// Share of a plane's thickness that is shape and not noise, so that more points do not average it out.
+constexpr double kShapeShare = 0.2;
 /// A fit is renewed when the number of points has grown by this factor.
 constexpr double kRefitGrowth = 1.3;
 
@@ -114,7 +116,7 @@ void PlaneMap::fit(Voxel& voxel, double size_m) const {
                   extent2 >= leastExtent_m * leastExtent_m && thickness2 <= kMostAspect * kMostAspect * extent2;
   voxel.normal = solver.eigenvectors().col(0).cast<float>();
   voxel.offsetVariance = static_cast<float>(thickness2 / voxel.count);
-  voxel.tiltVariance = static_cast<float>(thickness2 / (voxel.count * extent2));
+  voxel.tiltVariance = static_cast<float>(thickness2 / extent2 * (1.0 / voxel.count + kShapeShare));
 }
 
 bool PlaneMap::match(const Eigen::Vector3d& point, PlaneMatch& out) const {
@@ -129,6 +131,7 @@ bool PlaneMap::match(const Eigen::Vector3d& point, PlaneMatch& out) const {
     out.distance_m = out.normal.dot(fromMean);
     const double along2 = fromMean.squaredNorm() - out.distance_m * out.distance_m;
     out.variance_m2 = voxel.offsetVariance + voxel.tiltVariance * along2;
+    out.tiltVariance_rad2 = voxel.tiltVariance;
     return true;
   }
   return false;

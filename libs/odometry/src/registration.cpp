@@ -22,7 +22,8 @@ struct Residual {
   Vector6 h;
   double r = 0;        // [m]
   double sigma_m = 0;  // expected
-  double lever2 = 0;   // squared distance of the point from the body's origin
+  Vector3d p;          // in the body
+  double tiltVariance = 0;
 };
 
 /// Residuals of all points with a plane whose distance is possible under the prior and the noise.
@@ -42,7 +43,8 @@ std::vector<Residual> residualsAt(const BodyPoints& points, const PlaneMap& map,
     const double gate2 = variance + residual.h.dot(priorCovariance * residual.h);
     if (residual.r * residual.r > options.gateSigma * options.gateSigma * gate2) continue;
     residual.sigma_m = std::sqrt(variance);
-    residual.lever2 = p.squaredNorm();
+    residual.p = p;
+    residual.tiltVariance = plane.tiltVariance_rad2;
     residuals.push_back(residual);
   }
   return residuals;
@@ -59,20 +61,34 @@ double robustScale(const std::vector<Residual>& residuals) {
   return *middle / kMedianOfAbs;
 }
 
-/// What is left of the information about three directions when the other three are free.
-Matrix3d marginal(const Matrix6& A, int at) {
-  const int other = 3 - at;
-  const Matrix3d rest = A.block<3, 3>(other, other) + 1e-9 * A.diagonal().maxCoeff() * Matrix3d::Identity();
-  return A.block<3, 3>(at, at) - A.block<3, 3>(at, other) * rest.ldlt().solve(A.block<3, 3>(other, at));
-}
+/// Sum of v G (1 - n n^T) G^T over all residuals, v = w times tilt variance and G = dh/dn = (1, [p]x R^T); as
+/// (G n) = h, it splits into sums that need not the normal, and one of h h^T.
+class PretendedSum {
+ public:
+  void add(const Residual& residual, double w) {
+    const double v = w * residual.tiltVariance;
+    weight_ += v;
+    first_ += v * residual.p;
+    second_.noalias() += (v * residual.p) * residual.p.transpose();
+    outer_.noalias() += (v * residual.h) * residual.h.transpose();
+  }
+  Matrix6 matrix(const Matrix3d& R) const {
+    Matrix6 sum = -outer_;
+    sum.topLeftCorner<3, 3>() += weight_ * Matrix3d::Identity();
+    const Matrix3d cross = core::skew(first_) * R.transpose();
+    sum.bottomLeftCorner<3, 3>() += cross;
+    sum.topRightCorner<3, 3>() += cross.transpose();
+    sum.bottomRightCorner<3, 3>() += second_.trace() * Matrix3d::Identity() - second_;
+    return sum;
+  }
+  double meanLever2_m2() const { return weight_ > 0 ? second_.trace() / weight_ : 1.0; }
 
-std::vector<Vector3d> weakDirections(const Matrix3d& information, double limit) {
-  Eigen::SelfAdjointEigenSolver<Matrix3d> solver(information);
-  std::vector<Vector3d> weak;
-  for (int i = 0; i < 3; ++i)
-    if (solver.eigenvalues()[i] < limit) weak.emplace_back(solver.eigenvectors().col(i));
-  return weak;
-}
+ private:
+  double weight_ = 0;
+  Vector3d first_ = Vector3d::Zero();
+  Matrix3d second_ = Matrix3d::Zero();
+  Matrix6 outer_ = Matrix6::Zero();
+};
 
 Vector6 differenceFrom(const core::Isometry& prior, const core::Isometry& T) {
   Vector6 e;
@@ -94,6 +110,7 @@ NormalEquations linearise(const BodyPoints& points, const PlaneMap& map, const c
   sum.matches = residuals.size();
   sum.residualScale = robustScale(residuals);
   const double scale = std::max(1.0, sum.residualScale);
+  PretendedSum pretended;
   for (const auto& residual : residuals) {
     const double sigma = scale * residual.sigma_m;
     const double u = residual.r / (kCauchyWidth * sigma);
@@ -101,20 +118,33 @@ NormalEquations linearise(const BodyPoints& points, const PlaneMap& map, const c
     const Vector6 wh = w * residual.h;
     sum.A.noalias() += wh * residual.h.transpose();
     sum.b += residual.r * wh;
-    sum.weight += w;
-    sum.leverWeight += w * residual.lever2;
+    pretended.add(residual, w);
   }
+  sum.pretended = pretended.matrix(T.linear());
+  sum.meanLever2_m2 = pretended.meanLever2_m2();
   return sum;
 }
 
-void removeDegenerate(NormalEquations& equations, double ratio, RegistrationResult& result) {
-  result.degenerateTranslations_map = weakDirections(marginal(equations.A, 0), ratio * equations.weight);
-  result.degenerateRotations_body = weakDirections(marginal(equations.A, 3), ratio * equations.leverWeight);
-  Matrix6 keep = Matrix6::Identity();
-  for (const auto& u : result.degenerateTranslations_map) keep.topLeftCorner<3, 3>() -= u * u.transpose();
-  for (const auto& u : result.degenerateRotations_body) keep.bottomRightCorner<3, 3>() -= u * u.transpose();
-  equations.A = (keep * equations.A * keep).eval();
-  equations.b = (keep * equations.b).eval();
+std::vector<Vector6> removePretended(NormalEquations& equations, double ratio) {
+  std::vector<Vector6> unseen;
+  // A trace of the information itself keeps the noise matrix positive definite.
+  const Matrix6 pretended =
+      equations.pretended + 1e-9 * equations.A.diagonal().cwiseMax(1e-9).asDiagonal().toDenseMatrix();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(equations.A, pretended);
+  const Matrix6& V = solver.eigenvectors();  // V^T pretended V = 1, so V^-1 = V^T pretended
+  const Matrix6 inverse = V.transpose() * pretended;
+  Vector6 known, share;
+  for (int i = 0; i < 6; ++i) {
+    const double mu = solver.eigenvalues()[i];
+    known[i] = std::max(0.0, mu - ratio);
+    share[i] = mu > 0 ? known[i] / mu : 0.0;
+    if (known[i] > 0) continue;
+    const double size2 = V.col(i).head<3>().squaredNorm() + equations.meanLever2_m2 * V.col(i).tail<3>().squaredNorm();
+    unseen.emplace_back(V.col(i) / std::sqrt(size2));
+  }
+  equations.A = inverse.transpose() * known.asDiagonal() * inverse;
+  equations.b = (inverse.transpose() * share.asDiagonal() * V.transpose() * equations.b).eval();
+  return unseen;
 }
 
 RegistrationResult registerPoints(const BodyPoints& points, const PlaneMap& map, const PoseBelief& prior,
@@ -132,7 +162,7 @@ RegistrationResult registerPoints(const BodyPoints& points, const PlaneMap& map,
       result.end = RegistrationEnd::tooFewMatches;
       return result;
     }
-    removeDegenerate(equations, options.degeneracyRatio, result);
+    result.degenerateMotions = removePretended(equations, options.degeneracyRatio);
     result.information = equations.A;
     const Vector6 e = differenceFrom(prior.T_map_body, T);
     Matrix6 J = Matrix6::Identity();

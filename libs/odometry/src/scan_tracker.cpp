@@ -79,14 +79,13 @@ OdometryResult ScanTracker::track(const Scan& scan, const ImuBuffer& imu) {
       result.reason = OdometryReason::tooFewMatches;
     } else {
       filter_.setPosePosterior(fit.pose.T_map_body, fit.pose.covariance);
-      if (!fit.degenerateTranslations_map.empty() || !fit.degenerateRotations_body.empty()) {
+      if (!fit.degenerateMotions.empty()) {
         result.status = OdometryStatus::degenerate;
         result.reason = OdometryReason::weakGeometry;
       }
     }
-    result.degenerateTranslations_odom = fit.degenerateTranslations_map;
-    for (const auto& axis : fit.degenerateRotations_body)
-      result.degenerateRotations_vehicle.emplace_back(T_vehicle_imu_.linear() * axis);
+    const Matrix6 toVehicle = vehicleByImuError();
+    for (const auto& motion : fit.degenerateMotions) result.degenerateMotions.emplace_back(toVehicle * motion);
   }
   const core::Trajectory corrected = correctedPath(path, filter_.state().T_odom_imu());
   for (std::size_t i = 1; i < corrected.size(); ++i) {
@@ -194,9 +193,14 @@ void ScanTracker::insert(const Points& points) {
   }
 }
 
+Matrix6 ScanTracker::vehicleByImuError() const {
+  Matrix6 toBody = Matrix6::Identity();
+  toBody.topLeftCorner<3, 3>() = filter_.state().R_odom_imu.transpose();
+  return adjoint(T_vehicle_imu_) * toBody;
+}
+
 void ScanTracker::describe(const Points& points, const Vector3d& angularRate_radps, OdometryResult& result) {
   const NavState& state = filter_.state();
-  const Eigen::Matrix3d R = state.R_odom_imu;
   result.T_odom_vehicle = T_odom_vehicle();
   result.hasGravity = filter_.hasImu();
   if (result.hasGravity) {
@@ -208,11 +212,9 @@ void ScanTracker::describe(const Points& points, const Vector3d& angularRate_rad
     result.accelBias_mps2 = state.accelBias;
   }
   const Vector3d rate = angularRate_radps - state.gyroBias;
-  result.velocity_odom = state.velocity + R * rate.cross(T_imu_vehicle_.translation());
+  result.velocity_odom = state.velocity + state.R_odom_imu * rate.cross(T_imu_vehicle_.translation());
 
-  Matrix6 toBody = Matrix6::Identity();
-  toBody.topLeftCorner<3, 3>() = R.transpose();
-  const Matrix6 A = adjoint(T_vehicle_imu_) * toBody;
+  const Matrix6 A = vehicleByImuError();
   result.covariance_registration = A * filter_.poseCovariance() * A.transpose();
   accountDrift(points, result);
   result.points_vehicle.reserve(points.registered.size());

@@ -42,6 +42,9 @@ class ScanTracker {
   BodyPoints bodyPoints(const Points& points) const;
   core::Trajectory correctedPath(const std::vector<NavState>& path, const core::Isometry& T_odom_imu_end) const;
   RegistrationResult registerScan(const Scan& scan, const std::vector<NavState>& path, Points& points) const;
+  /// Takes an error of the filter's pose (position in odom, rotation in imu) to the right perturbation of the
+  /// vehicle's pose.
+  core::Matrix6 vehicleByImuError() const;
   void insert(const Points& points);
   void describe(const Points& points, const Eigen::Vector3d& angularRate_radps, OdometryResult& result);
   void accountDrift(const Points& points, OdometryResult& result);

@@ -23,7 +23,7 @@ enum class OdometryReason {
   emptyScan,          ///< no usable point
   timeNotIncreasing,  ///< ends no later than a scan before it
   tooFewMatches,      ///< hardly any point lies on a known plane
-  weakGeometry        ///< see the degenerate directions
+  weakGeometry        ///< see the degenerate motions
 };
 
 std::string statusName(OdometryStatus status);
@@ -52,8 +52,9 @@ struct OdometryResult {
   Eigen::Vector3d gyroBias_radps = Eigen::Vector3d::Zero();  ///< in the IMU's frame
   Eigen::Vector3d accelBias_mps2 = Eigen::Vector3d::Zero();
 
-  std::vector<Eigen::Vector3d> degenerateTranslations_odom;  ///< unit directions
-  std::vector<Eigen::Vector3d> degenerateRotations_vehicle;  ///< unit axes
+  /// Motions that the scan did not see, as right perturbations of the vehicle's pose that move the scan's points by
+  /// about 1 m.
+  std::vector<core::Vector6> degenerateMotions;
   int iterations = 0;
   std::size_t pointCount = 0;  ///< tried for registration
   std::size_t matchCount = 0;  ///< found on a plane of the map

@@ -57,9 +57,9 @@ struct RegistrationOptions {
   double gateSigma = 3.5;  ///< matches further off than this many standard deviations are left out
   double stopTranslation_m = 5.0e-4;
   double stopRotation_rad = 2.0e-5;
-  /// A direction is degenerate when the mean squared cosine between it and the surface normals (for rotations: of the
-  /// unit lever's velocity) that remains after all other directions are free is below this.
-  double degeneracyRatio = 2.0e-3;
+  /// This many times what the noise of the map's normals pretends to know is taken off the scan's information; a
+  /// direction about which nothing remains is degenerate.
+  double degeneracyRatio = 3.0;
   /// Residuals of neighbouring points are not independent: the information counts as that of N / this many.
   double correlation = 4.0;
 };

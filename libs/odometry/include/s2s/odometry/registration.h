@@ -30,16 +30,18 @@ struct RegistrationResult {
   int iterations = 0;
   std::size_t matches = 0;   ///< points with a plane, within the gate
   double residualScale = 0;  ///< robust scale of the residuals over their expected standard deviation; 1 is ideal
-  std::vector<Eigen::Vector3d> degenerateTranslations_map;  ///< unit directions along which the scan says nothing
-  std::vector<Eigen::Vector3d> degenerateRotations_body;    ///< unit axes
+  /// Motions (translation in map [m], rotation vector in body [rad]) that the scan does not see, each scaled to move
+  /// the points by about 1 m.
+  std::vector<core::Vector6> degenerateMotions;
 };
 
 /// Sums of the weighted point-to-plane problem at one pose.
 struct NormalEquations {
   core::Matrix6 A = core::Matrix6::Zero();  ///< sum of w h h^T
   core::Vector6 b = core::Vector6::Zero();  ///< sum of w h r
-  double weight = 0;                        ///< sum of w [1/m^2]
-  double leverWeight = 0;                   ///< sum of w |p_body|^2
+  /// Information that the noise of the planes' normals pretends: sum of w times the covariance of h.
+  core::Matrix6 pretended = core::Matrix6::Zero();
+  double meanLever2_m2 = 0;  ///< mean |p_body|^2
   std::size_t matches = 0;
   double residualScale = 0;
 };
@@ -50,8 +52,13 @@ struct NormalEquations {
 NormalEquations linearise(const BodyPoints& points, const PlaneMap& map, const core::Isometry& T,
                           const core::Matrix6& priorCovariance, const RegistrationOptions& options);
 
-/// Takes what a scan cannot see out of the equations.
-void removeDegenerate(NormalEquations& equations, double ratio, RegistrationResult& result);
+/// Takes out of the equations what is not known but pretended by noisy normals, and returns the motions about which
+/// nothing remains.
+///
+/// With h = h0 + noise of covariance C, the expectation of sum w h h^T is the true information plus sum w C. In the
+/// coordinates that make the latter the unit matrix and the former diagonal (generalised eigenvectors), each value mu
+/// is reduced to mu - ratio, and to zero if it would be negative; the gradient shrinks alike.
+std::vector<core::Vector6> removePretended(NormalEquations& equations, double ratio);
 
 /// Most probable pose given a prior and the scan's points on the map's planes (iterated, with the points matched anew
 /// in each iteration), and its covariance: the update of an iterated Kalman filter in its pose block.
