@@ -20,7 +20,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 /// Why a stock program cannot be tried here; empty if it can.
-std::string obstacle(const std::string& program) {
+std::string obstacle([[maybe_unused]] const std::string& program) {
 #ifdef __SANITIZE_ADDRESS__
   return "a stock program cannot load a plugin built with the address sanitizer";
 #else

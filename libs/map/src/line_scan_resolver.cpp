@@ -79,15 +79,27 @@ std::optional<Decision> crossing(const Arc& arc, const std::vector<Gap>& gaps, s
   return std::nullopt;
 }
 
+/// Elevation of the lowest point of the arc within the aperture, in closed form.
+///
+/// The arc is a circle, centre + radius (in_plane cos psi + z_axis sin psi); its height is least where psi points down.
+double lowestElevation(const StoredLineScan& scan, const core::Isometry& T_map_sonar, double bearing_rad) {
+  const bool isCone = scan.bearingModel == obs::BearingModel::Cone;
+  const Eigen::Vector3d inPlane(isCone ? 1 : std::cos(bearing_rad), isCone ? 0 : std::sin(bearing_rad), 0);
+  const double up_inPlane = T_map_sonar.linear().row(2).dot(inPlane), up_z = T_map_sonar.linear()(2, 2);
+  const double psi = std::atan2(-up_z, -up_inPlane);
+  const double half = 0.5 * scan.verticalAperture_rad;
+  const double elevation = isCone ? std::asin(std::abs(std::cos(bearing_rad)) * std::sin(psi)) : psi;
+  if (std::abs(psi) <= M_PI / 2 && std::abs(elevation) <= half) return elevation;
+  // Height is monotonic over the aperture then: one of its edges is the lowest.
+  return up_z > 0 ? -half : half;
+}
+
 /// Nothing known: the lowest point, which may be off by all of the aperture in the directions there are.
-Decision lowestPoint(const Arc& arc) {
-  std::size_t lowest = 0;
-  for (std::size_t i = 1; i < arc.p_map.size(); ++i)
-    if (arc.p_map[i].z() < arc.p_map[lowest].z()) lowest = i;
-  const double below = arc.elevation_rad[lowest] - arc.elevation_rad.front();
-  const double above = arc.elevation_rad.back() - arc.elevation_rad[lowest];
+Decision lowestPoint(const Arc& arc, double lowest_rad) {
+  const double below = lowest_rad - arc.elevation_rad.front();
+  const double above = arc.elevation_rad.back() - lowest_rad;
   Decision decision;
-  decision.elevation_rad = arc.elevation_rad[lowest];
+  decision.elevation_rad = lowest_rad;
   // Root mean square distance from there of a place evenly distributed over the aperture.
   decision.halfSpread_rad = std::sqrt((std::pow(below, 3) + std::pow(above, 3)) / (3 * std::max(1e-9, below + above)));
   return decision;
@@ -129,7 +141,7 @@ class PingResolver {
     if (seabed && wall) return seabed->misfit <= wall->misfit ? *seabed : *wall;
     if (seabed) return *seabed;
     if (wall) return *wall;
-    return lowestPoint(arc_);
+    return lowestPoint(arc_, lowestElevation(scan_, T_map_sonar_, r.bearing_rad));
   }
 
  private:

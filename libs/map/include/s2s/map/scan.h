@@ -44,7 +44,8 @@ enum class ElevationSource : std::uint8_t {
   LowestPoint = 3  ///< nothing known: where a level seabed would be met first, the lowest point of the arc
 };
 
-/// p_sonar of a return at an elevation from the imaging plane (positive toward +z), for both beam models.
+/// p_sonar of a return at an elevation, asin(z / |p|), from the imaging plane. Under the cone model bearing and
+/// elevation together cannot exceed 90 degrees; an elevation beyond that is taken as the largest possible one.
 Eigen::Vector3d arcPoint(obs::BearingModel model, double range_m, double bearing_rad, double elevation_rad);
 
 /// Sixteen bytes a point: intensity and sigma as half floats (11 significant bits, at most 65504).

@@ -1,0 +1,275 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "leading_edge_scene.h"
+#include "s2s/map/CSeabedSkyMap.h"
+
+namespace {
+
+using namespace s2s::map;
+using namespace s2s::test;
+using s2s::core::durationNs;
+using s2s::core::Isometry;
+using s2s::core::isometryFromXyzYpr;
+using s2s::obs::BearingModel;
+
+constexpr double kDepth_m = 3.0;  // of the seabed below the sonars' heads
+constexpr double kSeabed_m = -0.4 - kDepth_m;
+
+MapOptions withElevation(LineElevation elevation) {
+  MapOptions options;
+  options.insertion.lineElevation = elevation;
+  options.insertion.lidarVoxel_m = 0;
+  return options;
+}
+
+std::vector<MapPoint> pointsOf(const CSeabedSkyMap& map, Layer layer) {
+  std::vector<MapPoint> points;
+  map.forEachPoint(layer, [&points](const MapPoint& p) { points.push_back(p); });
+  return points;
+}
+
+/// Heights of a layer's points over the level seabed.
+std::vector<double> heightErrors(const CSeabedSkyMap& map, Layer layer) {
+  std::vector<double> errors;
+  for (const MapPoint& p : pointsOf(map, layer)) errors.push_back(p.p_map.z() - kSeabed_m);
+  return errors;
+}
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+double quantileOfSize(std::vector<double> values, double share) {
+  for (double& v : values) v = std::abs(v);
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+/// A straight survey at 1 m/s: both sonars at 10 Hz, noise of 1 cm.
+struct Survey {
+  LeadingEdgeScene scene;
+  Isometry T_start = Isometry::Identity();
+  BearingModel model = BearingModel::Azimuth;
+  double duration_s = 6;
+  bool withVertical = true;
+
+  Isometry pose(double t) const { return T_start * isometryFromXyzYpr(t, 0, 0, 0, 0, 0); }
+  void run(CSeabedSkyMap& map) {
+    for (int i = 0; i < static_cast<int>(10 * duration_s); ++i) {
+      const double t = 0.1 * i;
+      if (withVertical)
+        map.insertLineScan(Layer::LineVertical, durationNs(t), pose(t),
+                           scene.ping(pose(t), verticalMount(), kVerticalHalfFan, 256, model, 0.01));
+      map.insertLineScan(Layer::LineHorizontal, durationNs(t), pose(t),
+                         scene.ping(pose(t), horizontalMount(), kHorizontalHalfFan, 64, model, 0.01));
+    }
+  }
+};
+
+TEST(LineScanResolver, FlatSeabedZeroElevation_IsTooShallowByTheClosedForm) {
+  LeadingEdgeScene scene;
+  scene.add(LeadingEdgeScene::seabed(kSeabed_m));
+  CSeabedSkyMap map(withElevation(LineElevation::Zero));
+  map.insertLineScan(Layer::LineHorizontal, 0, Isometry::Identity(),
+                     scene.ping(Isometry::Identity(), horizontalMount(), 1e-6, 2));
+  // The echo comes from the lower edge, 55 degrees down; the imaging plane is 45 degrees down: 13.7 % of the depth.
+  const double expected = kDepth_m * (1 - std::sin(45 * kDegree) / std::sin(55 * kDegree));
+  EXPECT_NEAR(expected / kDepth_m, 0.137, 0.0005);
+  EXPECT_NEAR(mean(heightErrors(map, Layer::LineHorizontal)), expected, 1e-5);  // ranges are single precision
+}
+
+TEST(LineScanResolver, FlatSeabedNothingKnown_LowerEdgeIsExact) {
+  for (const BearingModel model : {BearingModel::Azimuth, BearingModel::Cone}) {
+    LeadingEdgeScene scene;
+    scene.add(LeadingEdgeScene::seabed(kSeabed_m));
+    CSeabedSkyMap map(withElevation(LineElevation::Resolved));
+    map.insertLineScan(Layer::LineHorizontal, 0, Isometry::Identity(),
+                       scene.ping(Isometry::Identity(), horizontalMount(), kHorizontalHalfFan, 128, model));
+    // The elevation is kept in steps of 0.1 mrad: 0.5 mm at the 10 m that the outer beams reach.
+    EXPECT_LT(quantileOfSize(heightErrors(map, Layer::LineHorizontal), 1.0), 1e-3);
+    EXPECT_EQ(map.elevationSources(Layer::LineHorizontal)[static_cast<std::size_t>(ElevationSource::LowestPoint)],
+              map.pointCount(Layer::LineHorizontal));
+  }
+}
+
+TEST(LineScanResolver, NothingKnownAnyAttitude_TheArcHasNoLowerPoint) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> angle(-M_PI, M_PI), bearing(-1.1, 1.1);
+  for (int i = 0; i < 500; ++i) {
+    LineScanResolver resolver;
+    resolver.reset({});
+    StoredLineScan scan;
+    scan.verticalAperture_rad = static_cast<float>(LeadingEdgeScene::kAperture_rad);
+    scan.bearingModel = i % 2 ? BearingModel::Cone : BearingModel::Azimuth;
+    PackedReturn r;
+    r.range_m = 5;
+    r.bearing_rad = static_cast<float>(bearing(random));
+    scan.returns = {r};
+    const Isometry T_map_sonar = isometryFromXyzYpr(0, 0, 0, angle(random), 0.5 * angle(random), angle(random));
+    resolver.resolve(scan, T_map_sonar);
+    const auto height = [&](double elevation_rad) {
+      return (T_map_sonar * arcPoint(scan.bearingModel, r.range_m, r.bearing_rad, elevation_rad)).z();
+    };
+    double lowest = std::numeric_limits<double>::max();
+    for (int k = -1000; k <= 1000; ++k) lowest = std::min(lowest, height(0.5 * scan.verticalAperture_rad * k / 1000.0));
+    // Half a step of the stored elevation, 0.05 mrad, over 5 m.
+    EXPECT_LT(height(scan.returns[0].elevation * kElevationStep_rad), lowest + 0.0003) << i;
+  }
+}
+
+TEST(LineScanResolver, FlatSeabedSurvey_BiasVanishes) {
+  for (const BearingModel model : {BearingModel::Azimuth, BearingModel::Cone}) {
+    Survey survey;
+    survey.model = model;
+    survey.scene.add(LeadingEdgeScene::seabed(kSeabed_m));
+    CSeabedSkyMap zero(withElevation(LineElevation::Zero)), resolved(withElevation(LineElevation::Resolved));
+    survey.run(zero);
+    survey.run(resolved);
+    EXPECT_GT(mean(heightErrors(zero, Layer::LineHorizontal)), 0.3);
+    // A range bin of these sonars is some 14 mm long. Range noise of 10 mm is taken down to 8 mm of height at 55 deg.
+    const auto errors = heightErrors(resolved, Layer::LineHorizontal);
+    EXPECT_LT(std::abs(mean(errors)), 0.014);
+    EXPECT_LT(quantileOfSize(errors, 0.95), 0.05);
+    EXPECT_LT(std::abs(mean(heightErrors(resolved, Layer::LineVertical))), 0.014);
+    EXPECT_GT(resolved.elevationSources(Layer::LineHorizontal)[static_cast<std::size_t>(ElevationSource::Seabed)],
+              100u);
+  }
+}
+
+/// A quay wall at y = 4 m, in a seabed 5 m deep, seen by LiDAR above the water.
+constexpr double kWall_m = 4.0;
+void addCanal(LeadingEdgeScene& scene) {
+  scene.add(LeadingEdgeScene::seabed(-5.4));
+  scene.add({-Eigen::Vector3d::UnitY(), -kWall_m, [](const Eigen::Vector3d& p) { return p.z() < 2; }});
+}
+
+void insertLidarWall(CSeabedSkyMap& map) {
+  std::vector<ScanPoint> points;
+  std::mt19937 random(3);
+  std::normal_distribution<float> noise(0, 0.02f);
+  for (float x = -8; x <= 14; x += 0.1f)
+    for (float z = 0.1f; z <= 2; z += 0.1f)
+      points.push_back({{x, static_cast<float>(kWall_m) + noise(random), z}, 1, 0.02f});
+  map.insertScan(Layer::Lidar, 0, Isometry::Identity(), points);
+}
+
+/// Distances from the wall of the points that are nearer to it than to the seabed, positive on the water's side.
+std::vector<double> wallErrors(const CSeabedSkyMap& map, double tolerance_m) {
+  std::vector<double> errors;
+  for (const MapPoint& p : pointsOf(map, Layer::LineHorizontal))
+    if (p.p_map.z() > -5.4 + 0.5 && p.p_map.y() > kWall_m - tolerance_m) errors.push_back(kWall_m - p.p_map.y());
+  return errors;
+}
+
+TEST(LineScanResolver, WallSeenObliquely_LiesWhereTheLidarSawIt) {
+  for (const BearingModel model : {BearingModel::Azimuth, BearingModel::Cone}) {
+    Survey survey;
+    survey.model = model;
+    survey.T_start = isometryFromXyzYpr(0, 0, 0, 20 * kDegree, 0, 0);  // heading toward the wall
+    survey.duration_s = 3;
+    survey.withVertical = false;
+    addCanal(survey.scene);
+    CSeabedSkyMap zero(withElevation(LineElevation::Zero)), resolved(withElevation(LineElevation::Resolved));
+    insertLidarWall(resolved);
+    survey.run(zero);
+    survey.run(resolved);
+    const auto zeroErrors = wallErrors(zero, 1.5), errors = wallErrors(resolved, 1.5);
+    ASSERT_GT(errors.size(), 200u);
+    EXPECT_GT(resolved.elevationSources(Layer::LineHorizontal)[static_cast<std::size_t>(ElevationSource::Wall)], 200u);
+    // The arc's steps of 1.25 deg and the noise of 1 cm leave a few centimetres; the imaging plane alone is off by
+    // more.
+    EXPECT_LT(std::abs(mean(errors)), 0.02);
+    EXPECT_LT(std::abs(mean(errors)), std::abs(mean(zeroErrors)));
+    EXPECT_LT(quantileOfSize(errors, 0.9), 0.06);
+  }
+}
+
+TEST(LineScanResolver, SeabedKnownAndLowerEdgeSilent_ReturnIsPutWhereItsArcMeetsTheSeabed) {
+  ResolverOptions options;
+  LineScanResolver resolver;
+  resolver.reset(options);
+  for (double x = 0; x < 8; x += 0.05)
+    for (double y = -2; y < 2; y += 0.05) resolver.addSonarEvidence({x, y, kSeabed_m}, 0.01);
+  StoredLineScan scan;
+  scan.T_vehicle_sonar = horizontalMount();
+  scan.verticalAperture_rad = static_cast<float>(LeadingEdgeScene::kAperture_rad);
+  PackedReturn weak;
+  // The echo of 50 degrees down: the aperture's lowest 5 degrees gave none above the threshold.
+  weak.range_m = static_cast<float>(kDepth_m / std::sin(50 * kDegree));
+  weak.rangeSigmaHalf = toHalf(0.01f);
+  scan.returns = {weak};
+  resolver.resolve(scan, Isometry::Identity());
+  EXPECT_EQ(scan.returns[0].source, ElevationSource::Seabed);
+  // The seabed is known to its roughness of 5 cm; the crossing itself is found to a part of an arc step.
+  EXPECT_NEAR(scan.returns[0].elevation * kElevationStep_rad, -5 * kDegree, 0.3 * kDegree);
+}
+
+TEST(LineScanResolver, EchoFarAboveTheKnownSeabed_IsNotPulledOntoIt) {
+  LineScanResolver resolver;
+  resolver.reset({});
+  for (double x = 0; x < 8; x += 0.05)
+    for (double y = -2; y < 2; y += 0.05) resolver.addSonarEvidence({x, y, kSeabed_m}, 0.01);
+  StoredLineScan scan;
+  scan.T_vehicle_sonar = horizontalMount();
+  scan.verticalAperture_rad = static_cast<float>(LeadingEdgeScene::kAperture_rad);
+  PackedReturn fish;
+  fish.range_m = 2;
+  scan.returns = {fish};
+  resolver.resolve(scan, Isometry::Identity());
+  EXPECT_EQ(scan.returns[0].source, ElevationSource::LowestPoint);
+  // Anywhere on the arc of 0.70 m: seen from its lower end the root mean square is its length over the root of three.
+  EXPECT_NEAR(decodeSigma(scan.returns[0].sigmaCode), 2 * LeadingEdgeScene::kAperture_rad / std::sqrt(3.0), 0.02);
+}
+
+TEST(LineScanResolver, EvidenceThatComesLater_CountsAfterResolvingAgain) {
+  LeadingEdgeScene scene;
+  scene.add(LeadingEdgeScene::seabed(kSeabed_m));
+  CSeabedSkyMap map(withElevation(LineElevation::Resolved));
+  map.insertLineScan(Layer::LineHorizontal, 0, Isometry::Identity(),
+                     scene.ping(Isometry::Identity(), horizontalMount(), 1 * kDegree, 16));
+  for (int i = 0; i < 20; ++i)
+    map.insertLineScan(
+        Layer::LineVertical, durationNs(1), isometryFromXyzYpr(-1 + 0.1 * i, 0, 0, 0, 0, 0),
+        scene.ping(isometryFromXyzYpr(-1 + 0.1 * i, 0, 0, 0, 0, 0), verticalMount(), kVerticalHalfFan, 256));
+  const auto seabed = static_cast<std::size_t>(ElevationSource::Seabed);
+  EXPECT_EQ(map.elevationSources(Layer::LineHorizontal)[seabed], 0u);
+  map.resolveLineScans();
+  EXPECT_EQ(map.elevationSources(Layer::LineHorizontal)[seabed], 16u);
+}
+
+TEST(LineScanResolver, PosesMoved_EvidenceMovesAlong) {
+  Survey survey;
+  survey.scene.add(LeadingEdgeScene::seabed(kSeabed_m));
+  CSeabedSkyMap map(withElevation(LineElevation::Resolved));
+  const Isometry T_wrong = isometryFromXyzYpr(100, 50, 7, 1, 0, 0);
+  map.addKeyframe({0, 0, Isometry::Identity(), T_wrong});
+  survey.run(map);
+  map.setKeyframePoses({{0, Isometry::Identity()}});
+  map.resolveLineScans();
+  const auto errors = heightErrors(map, Layer::LineHorizontal);
+  EXPECT_LT(std::abs(mean(errors)), 0.014);  // a range bin, as in the survey above
+  EXPECT_GT(map.elevationSources(Layer::LineHorizontal)[static_cast<std::size_t>(ElevationSource::Seabed)], 100u);
+}
+
+TEST(LineScanResolver, SigmaOfUnknownElevation_CoversTheTruthOnASteepSlope) {
+  // A bank of 40 degrees ahead: the lowest point is wrong there, and the sigma must say so.
+  Survey survey;
+  survey.withVertical = false;
+  survey.duration_s = 0.5;
+  const Eigen::Vector3d normal = isometryFromXyzYpr(0, 0, 0, 0, -40 * kDegree, 0).linear() * Eigen::Vector3d::UnitZ();
+  survey.scene.add({normal, normal.dot(Eigen::Vector3d(0, 0, -4))});
+  CSeabedSkyMap map(withElevation(LineElevation::Resolved));
+  survey.run(map);
+  std::size_t covered = 0;
+  const auto points = pointsOf(map, Layer::LineHorizontal);
+  for (const MapPoint& p : points)
+    if (std::abs(normal.dot(p.p_map) - normal.dot(Eigen::Vector3d(0, 0, -4))) <= 2 * p.sigma_m) ++covered;
+  ASSERT_GT(points.size(), 100u);
+  EXPECT_GE(static_cast<double>(covered), 0.95 * static_cast<double>(points.size()));  // two standard deviations
+}
+
+}  // namespace

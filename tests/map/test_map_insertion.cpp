@@ -1,0 +1,160 @@
+#include <gtest/gtest.h>
+#include <mrpt/maps/CPointsMapXYZI.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
+
+#include "lidar_scene.h"
+#include "s2s/map/CSeabedSkyMap.h"
+
+namespace {
+
+using namespace s2s::map;
+using s2s::core::Isometry;
+using s2s::core::isometryFromXyzYpr;
+using s2s::core::toPose;
+
+CSeabedSkyMap unthinnedMap() {
+  MapOptions options;
+  options.insertion.lidarVoxel_m = 0;
+  options.insertion.lidarMinRange_m = 0;
+  return CSeabedSkyMap(options);
+}
+
+std::vector<MapPoint> lidarPoints(const CSeabedSkyMap& map) {
+  std::vector<MapPoint> points;
+  map.forEachPoint(Layer::Lidar, [&points](const MapPoint& p) { points.push_back(p); });
+  return points;
+}
+
+const Isometry kRobot = isometryFromXyzYpr(2, -1, 0.5, 0.3, 0.05, -0.02);
+const Isometry kSensor = isometryFromXyzYpr(0.4, 0.1, 1.2, 0.1, 0, 0);
+
+TEST(MapInsertion, LidarSweep_PointsLieOnTheRoom) {
+  CSeabedSkyMap map = unthinnedMap();
+  const auto sweep = s2s::test::sweepInRoom(kRobot, kSensor);
+  ASSERT_TRUE(map.insertObservation(*sweep, toPose(kRobot)));
+  EXPECT_EQ(map.pointCount(Layer::Lidar), sweep->returnCount());
+  for (const MapPoint& p : lidarPoints(map)) {
+    const double toBox = std::min({std::abs(std::abs(p.p_map.x()) - 10), std::abs(std::abs(p.p_map.y()) - 6),
+                                   std::abs(p.p_map.z() + 2), std::abs(p.p_map.z() - 6)});
+    const double toPillar = std::abs((p.p_map.head<2>() - Eigen::Vector2d(4, 3)).norm() - 0.5);
+    EXPECT_LT(std::min(toBox, toPillar), 0.001);  // ranges are in millimetres
+    EXPECT_GE(p.intensity, 100);
+    EXPECT_LT(p.intensity, 132);
+    EXPECT_EQ(p.time, 1'733'400'000'000'000'000);
+    EXPECT_GT(p.sigma_m, 0);
+  }
+}
+
+TEST(MapInsertion, InvalidColumnsAndMissingReturns_AreLeftOut) {
+  CSeabedSkyMap map = unthinnedMap();
+  const auto sweep = s2s::test::sweepInRoom(kRobot, kSensor);
+  sweep->columnValid.assign(256, 1);
+  sweep->columnValid[5] = 0;
+  sweep->echoes[0].range[0] = 0;
+  map.insertObservation(*sweep, toPose(kRobot));
+  EXPECT_EQ(map.pointCount(), 32u * 255u - 1u);
+}
+
+TEST(MapInsertion, PointCloud_IsPlacedBySensorPoseAndKeepsIntensity) {
+  CSeabedSkyMap map = unthinnedMap();
+  mrpt::obs::CObservationPointCloud cloud;
+  auto points = mrpt::maps::CPointsMapXYZI::Create();
+  points->insertPointRGB(1, 2, 3, 0.25f, 0, 0);
+  cloud.pointcloud = points;
+  cloud.sensorPose = toPose(kSensor);
+  ASSERT_TRUE(map.insertObservation(cloud, toPose(kRobot)));
+  const auto stored = lidarPoints(map);
+  ASSERT_EQ(stored.size(), 1u);
+  EXPECT_LT((stored[0].p_map - kRobot * kSensor * Eigen::Vector3d(1, 2, 3)).norm(), 1e-6);  // single precision
+  EXPECT_EQ(stored[0].intensity, 0.25f);
+}
+
+TEST(MapInsertion, PointCloudWithoutIntensityOrPose_IsTaken) {
+  CSeabedSkyMap map = unthinnedMap();
+  mrpt::obs::CObservationPointCloud cloud;
+  auto points = mrpt::maps::CSimplePointsMap::Create();
+  points->insertPoint(1, 2, 3);
+  cloud.pointcloud = points;
+  ASSERT_TRUE(map.insertObservation(cloud));
+  EXPECT_LT((lidarPoints(map).at(0).p_map - Eigen::Vector3d(1, 2, 3)).norm(), 1e-6);
+}
+
+TEST(MapInsertion, PlanarScan_IsTakenThroughMrpt) {
+  CSeabedSkyMap map = unthinnedMap();
+  mrpt::obs::CObservation2DRangeScan scan;
+  scan.aperture = static_cast<float>(M_PI);
+  scan.maxRange = 80;
+  scan.resizeScan(3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    scan.setScanRange(i, 5);
+    scan.setScanRangeValidity(i, true);
+  }
+  scan.sensorPose = toPose(kSensor);
+  ASSERT_TRUE(map.insertObservation(scan, toPose(kRobot)));
+  ASSERT_EQ(map.pointCount(), 3u);
+  EXPECT_LT((lidarPoints(map)[1].p_map - kRobot * kSensor * Eigen::Vector3d(5, 0, 0)).norm(), 1e-4);
+}
+
+TEST(MapInsertion, DepthCamera_IsTakenThroughMrpt) {
+  CSeabedSkyMap map = unthinnedMap();
+  mrpt::obs::CObservation3DRangeScan scan;
+  scan.hasPoints3D = true;
+  scan.resizePoints3DVectors(2);
+  scan.points3D_x = {4, 5};
+  scan.points3D_y = {1, 2};
+  scan.points3D_z = {0.5f, 0.6f};
+  scan.sensorPose = toPose(kSensor);
+  ASSERT_TRUE(map.insertObservation(scan, toPose(kRobot)));
+  ASSERT_EQ(map.pointCount(), 2u);
+  EXPECT_LT((lidarPoints(map)[0].p_map - kRobot * kSensor * Eigen::Vector3d(4, 1, 0.5)).norm(), 1e-4);
+}
+
+TEST(MapInsertion, VelodyneCloud_IsTakenThroughMrpt) {
+  CSeabedSkyMap map = unthinnedMap();
+  mrpt::obs::CObservationVelodyneScan scan;
+  scan.point_cloud.x = {6};
+  scan.point_cloud.y = {1};
+  scan.point_cloud.z = {2};
+  scan.point_cloud.intensity = {9};
+  scan.sensorPose = toPose(kSensor);
+  ASSERT_TRUE(map.insertObservation(scan, toPose(kRobot)));
+  EXPECT_LT((lidarPoints(map).at(0).p_map - kRobot * kSensor * Eigen::Vector3d(6, 1, 2)).norm(), 1e-4);
+}
+
+TEST(MapInsertion, ObservationWithoutPoints_IsRefused) {
+  CSeabedSkyMap map;
+  EXPECT_FALSE(map.insertObservation(mrpt::obs::CObservationIMU()));
+  EXPECT_FALSE(map.insertObservation(mrpt::obs::CObservationPointCloud()));
+  EXPECT_TRUE(map.isEmpty());
+  EXPECT_TRUE(map.keyframes().empty());
+}
+
+TEST(MapInsertion, EachInsertion_IsAKeyframeOfItsOwn) {
+  CSeabedSkyMap map = unthinnedMap();
+  // The same time twice, at different places, as a simple map may hold it: nothing may be interpolated between them.
+  for (int i = 0; i < 3; ++i) {
+    const Isometry T = isometryFromXyzYpr(i, 0, 0, 0, 0, 0);
+    map.insertObservation(*s2s::test::sweepInRoom(T, kSensor), toPose(T));
+  }
+  ASSERT_EQ(map.keyframes().size(), 3u);
+  const auto before = lidarPoints(map);
+  map.setKeyframePoses({{map.keyframes()[1].id, isometryFromXyzYpr(1, 0, 100, 0, 0, 0)}});
+  const auto after = lidarPoints(map);
+  std::size_t lifted = 0;
+  for (std::size_t i = 0; i < after.size(); ++i)
+    if (std::abs(after[i].p_map.z() - before[i].p_map.z() - 100) < 1e-9) ++lifted;
+  EXPECT_EQ(lifted, 32u * 256u);
+}
+
+TEST(MapInsertion, InsertionSwitchedOff_IsHonoured) {
+  CSeabedSkyMap map;
+  map.genericMapParams.enableObservationInsertion = false;
+  EXPECT_FALSE(map.insertObservation(*s2s::test::sweepInRoom(kRobot, kSensor), toPose(kRobot)));
+}
+
+}  // namespace
