@@ -16,11 +16,13 @@ constexpr std::chrono::seconds kLinePeriod{10};  // for work of unknown size tha
 
 }  // namespace
 
-Progress::Progress(std::ostream* out, std::string label, double total, std::string unit)
+Progress::Progress(std::ostream* out, std::string label, double total, std::string unit,
+                   std::chrono::milliseconds quietFor)
     : out_(out),
       label_(std::move(label)),
       unit_(std::move(unit)),
       total_(total),
+      quietFor_(quietFor),
       terminal_(::isatty(STDERR_FILENO) != 0),
       start_(Clock::now()),
       lastPrint_(start_) {}
@@ -35,6 +37,7 @@ void Progress::update(double done) {
     if (now - lastPrint_ >= kRedrawPeriod) print(done, now);
     return;
   }
+  if (now - start_ < quietFor_) return;
   if (total_ > 0) {
     const int tenth = static_cast<int>(10 * done / total_);
     if (tenth > lastTenth_ && tenth > 0) {

@@ -8,7 +8,8 @@ namespace s2s::core {
 
 /// Progress of long work: share done, rate and time left, at most a line a period.
 ///
-/// On a terminal the line is redrawn in place; elsewhere a new line is written each tenth of the work.
+/// On a terminal the line is redrawn in place; elsewhere a new line is written each tenth of the work, but none of work
+/// that is done within `quietFor`.
 class Progress {
  public:
   /// @param out   where to write (usually std::cerr); a null pointer keeps silent
@@ -16,7 +17,8 @@ class Progress {
   /// @param total amount of work in `unit`; zero or less if unknown
   /// @param unit  unit of the amount, e.g. "s" of survey: the rate is printed in it per second, for "s" as "x real
   /// time"
-  Progress(std::ostream* out, std::string label, double total, std::string unit);
+  Progress(std::ostream* out, std::string label, double total, std::string unit,
+           std::chrono::milliseconds quietFor = std::chrono::seconds(1));
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -33,6 +35,7 @@ class Progress {
   std::ostream* out_;
   std::string label_, unit_;
   double total_, done_ = 0;
+  std::chrono::milliseconds quietFor_;
   bool terminal_, finished_ = false;
   int lastTenth_ = -1;
   Clock::time_point start_, lastPrint_;
