@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "s2s/eval/control_points.h"
+#include "s2s/eval/truth_report.h"
+#include "s2s/eval/wall_similarity.h"
+
+namespace s2s::eval {
+
+/// Reports as tables of text for people, units in the headers.
+std::string toText(const TruthReport& report);
+std::string toText(const ControlReport& report);
+std::string toText(const WallReport& report);
+
+}  // namespace s2s::eval

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "s2s/eval/layer_distance.h"
+#include "s2s/eval/object_presence.h"
+#include "s2s/eval/seabed_error.h"
+#include "s2s/eval/trajectory_error.h"
+
+namespace s2s::eval {
+
+struct TruthOptions {
+  std::vector<double> rpeDistances_m = {1, 10};
+  std::vector<double> segmentLengths_m = {10, 50, 100};
+  TrajectoryAlignment mapAlignment = TrajectoryAlignment::Poses;
+  std::size_t maxPointsPerLayer = 1'000'000;  ///< larger layers are sampled
+  double objectReach_m = 0.1;
+  SeabedErrorOptions seabed;
+};
+
+struct RelativeErrorOver {
+  double delta = 0;
+  std::string unit;  ///< "frames" or "m"
+  RelativeError error;
+};
+
+/// One trajectory against the truth.
+struct TrajectoryReport {
+  std::string name;  ///< file name
+  std::size_t poses = 0;
+  std::size_t pairs = 0;  ///< poses that have a true pose at their time
+  double path_m = 0;      ///< true path between the first and the last pair
+  AbsoluteError absolute;
+  std::vector<RelativeErrorOver> relative;
+  std::vector<SegmentError> segments;
+};
+
+struct TruthReport {
+  std::vector<TrajectoryReport> trajectories;  ///< trajectory.tum, then odometry.tum if there is one
+  TrajectoryAlignment mapAlignment = TrajectoryAlignment::Poses;
+  core::Isometry T_world_map = core::Isometry::Identity();
+  std::map<map::Layer, LayerDistance> layers;
+  std::optional<SeabedError> seabed;
+  std::vector<ObjectPresence> objects;
+  std::vector<std::string> notes;  ///< what could not be compared, and why
+};
+
+/// Compares a map with the truth of the simulation it was made from. Nothing but the trajectories is aligned.
+/// @throws core::InputError if a folder or file cannot be used, or the trajectories have no time in common
+TruthReport evaluateAgainstTruth(const std::string& mapFolder, const std::string& truthFolder,
+                                 const TruthOptions& options);
+
+/// Transform that takes the map onto the true world by the trajectories alone.
+/// @throws core::InputError if they have no time in common
+core::Isometry alignMapToTruth(const core::Trajectory& truth, const core::Trajectory& estimate,
+                               TrajectoryAlignment alignment);
+
+}  // namespace s2s::eval

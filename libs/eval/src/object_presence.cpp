@@ -1,0 +1,83 @@
+#include "s2s/eval/object_presence.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "s2s/eval/statistics.h"
+
+namespace s2s::eval {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// The mesh without the vertices that no triangle uses, so that its extent is that of its triangles.
+products::PlyMesh compacted(const products::PlyMesh& mesh) {
+  products::PlyMesh result;
+  for (const auto& triangle : mesh.triangles) {
+    const auto first = static_cast<std::uint32_t>(result.vertices.size());
+    for (const std::uint32_t vertex : triangle) result.vertices.push_back(mesh.vertices[vertex]);
+    result.triangles.push_back({first, first + 1, first + 2});
+  }
+  result.object = mesh.object;
+  return result;
+}
+
+}  // namespace
+
+ObjectFinder::ObjectFinder(const TruthFolder& truth, double reach_m) : reach_m_(reach_m) {
+  products::PlyMesh bare = truth.partOfKind("seabed");
+  if (!bare.triangles.empty()) seabed_ = std::make_unique<MeshQuery>(std::move(bare));
+  for (const auto& [number, object] : truth.objects) {
+    if (object.kind != "object") continue;
+    products::PlyMesh surface = compacted(truth.partOfObject(number));
+    if (surface.triangles.empty()) continue;
+    Candidate candidate;
+    candidate.found.name = object.name;
+    candidate.low = candidate.high = surface.vertices.front();
+    Eigen::Vector3d highest = surface.vertices.front();
+    for (const auto& v : surface.vertices) {
+      candidate.low = candidate.low.cwiseMin(v);
+      candidate.high = candidate.high.cwiseMax(v);
+      if (v.z() > highest.z()) highest = v;
+    }
+    candidate.low.array() -= reach_m;
+    candidate.high.array() += reach_m;
+    candidate.found.trueHeight_m = heightAboveSeabed(highest);
+    candidate.surface = std::make_unique<MeshQuery>(std::move(surface));
+    candidates_.push_back(std::move(candidate));
+  }
+}
+
+double ObjectFinder::heightAboveSeabed(const Eigen::Vector3d& p_world) const {
+  if (!seabed_) return kNaN;
+  const auto height_m = seabed_->topHeight_m(p_world.x(), p_world.y());
+  return height_m ? p_world.z() - *height_m : kNaN;
+}
+
+void ObjectFinder::add(map::Layer layer, const Eigen::Vector3d& p_world) {
+  const auto index = static_cast<std::size_t>(layer);
+  for (auto& candidate : candidates_) {
+    if ((p_world.array() < candidate.low.array()).any() || (p_world.array() > candidate.high.array()).any()) continue;
+    const auto nearest = candidate.surface->nearest(p_world, reach_m_);
+    if (!nearest) continue;
+    ++candidate.found.near[index];
+    if (seabed_ && seabed_->nearest(p_world, nearest->distance_m)) continue;
+    ++candidate.found.own[index];
+    candidate.heights_m.push_back(heightAboveSeabed(p_world));
+  }
+}
+
+std::vector<ObjectPresence> ObjectFinder::presence() const {
+  std::vector<ObjectPresence> result;
+  for (const auto& candidate : candidates_) {
+    ObjectPresence presence = candidate.found;
+    std::vector<double> heights_m = candidate.heights_m;
+    std::sort(heights_m.begin(), heights_m.end());
+    presence.mappedHeight_m = percentile(heights_m, 0.95);
+    result.push_back(std::move(presence));
+  }
+  return result;
+}
+
+}  // namespace s2s::eval

@@ -1,0 +1,120 @@
+#include "s2s/eval/truth_report.h"
+
+#include "s2s/core/error.h"
+#include "s2s/core/time.h"
+#include "s2s/eval/map_folder.h"
+#include "s2s/eval/truth_folder.h"
+#include "s2s/products/ply_reader.h"
+
+namespace s2s::eval {
+
+namespace {
+
+std::vector<PosePair> pairOrRefuse(const core::Trajectory& truth, const core::Trajectory& estimate) {
+  std::vector<PosePair> pairs = pairByTime(truth, estimate);
+  if (!pairs.empty()) return pairs;
+  const auto span = [](const core::Trajectory& t) {
+    return t.empty() ? std::string("no poses")
+                     : core::formatUtc(t.front().time) + " to " + core::formatUtc(t.back().time);
+  };
+  throw core::InputError("the trajectories have no time in common: truth " + span(truth) + ", map " + span(estimate),
+                         "", "compare a map with the truth of the survey it was made from");
+}
+
+double truePath_m(const std::vector<PosePair>& pairs) {
+  double length_m = 0;
+  for (std::size_t i = 1; i < pairs.size(); ++i)
+    length_m += (pairs[i].T_ref_body.translation() - pairs[i - 1].T_ref_body.translation()).norm();
+  return length_m;
+}
+
+TrajectoryReport reportTrajectory(const std::string& name, const core::Trajectory& truth,
+                                  const core::Trajectory& estimate, const TruthOptions& options) {
+  const std::vector<PosePair> pairs = pairOrRefuse(truth, estimate);
+  TrajectoryReport report;
+  report.name = name;
+  report.poses = estimate.size();
+  report.pairs = pairs.size();
+  report.path_m = truePath_m(pairs);
+  report.absolute = absoluteError(pairs, TrajectoryAlignment::Positions);
+  report.relative.push_back({1, "frames", relativeErrorOverFrames(pairs, 1)});
+  for (const double distance_m : options.rpeDistances_m)
+    report.relative.push_back({distance_m, "m", relativeErrorOverDistance(pairs, distance_m)});
+  for (const double length_m : options.segmentLengths_m) report.segments.push_back(segmentError(pairs, length_m));
+  return report;
+}
+
+void measureLayers(const MapFolder& map, const MeshQuery& world, ObjectFinder& finder, const TruthOptions& options,
+                   TruthReport& report) {
+  for (const map::Layer layer : map::kLayers) {
+    const auto file = map.layerFile(layer);
+    if (!file) {
+      report.notes.push_back(std::string("layer ") + map::layerName(layer) + ": no such file in the map folder");
+      continue;
+    }
+    PointSample sample(options.maxPointsPerLayer);
+    std::uint64_t notFinite = 0;
+    products::forEachPlyPoint(*file, [&](const products::PlyPoint& point) {
+      if (!point.p.allFinite()) {
+        ++notFinite;
+        return;
+      }
+      const Eigen::Vector3d p_world = report.T_world_map * point.p;
+      sample.add(p_world);
+      finder.add(layer, p_world);
+    });
+    report.layers[layer] = measureLayer(world, sample.points(), sample.offered());
+    if (notFinite > 0)
+      report.notes.push_back(std::string("layer ") + map::layerName(layer) + ": " + std::to_string(notFinite) +
+                             " points are not finite and were left out");
+  }
+}
+
+/// The true path during the time of the map; a map of a part of the survey is not asked for the rest.
+core::Trajectory truePathOf(const core::Trajectory& truth, const core::Trajectory& estimate) {
+  std::vector<core::TimedPose> poses;
+  for (const auto& pair : pairByTime(truth, estimate)) poses.push_back({pair.time, pair.T_ref_body});
+  return core::Trajectory(std::move(poses));
+}
+
+void measureSeabed(const MapFolder& map, const TruthFolder& truth, const TruthOptions& options, TruthReport& report) {
+  const auto grid = map.seabed();
+  products::PlyMesh surface = truth.seabedWithObjects();
+  if (!grid)
+    report.notes.emplace_back("seabed: no seabed.tif in the map folder");
+  else if (surface.triangles.empty())
+    report.notes.emplace_back("seabed: the true world has no object of kind 'seabed'");
+  else
+    report.seabed = compareSeabed(*grid, report.T_world_map, MeshQuery(std::move(surface)),
+                                  truePathOf(truth.trajectory, map.trajectory()), options.seabed);
+}
+
+}  // namespace
+
+core::Isometry alignMapToTruth(const core::Trajectory& truth, const core::Trajectory& estimate,
+                               TrajectoryAlignment alignment) {
+  return absoluteError(pairOrRefuse(truth, estimate), alignment).T_ref_est;
+}
+
+TruthReport evaluateAgainstTruth(const std::string& mapFolder, const std::string& truthFolder,
+                                 const TruthOptions& options) {
+  const MapFolder map(mapFolder);
+  const TruthFolder truth = readTruthFolder(truthFolder);
+  TruthReport report;
+  const core::Trajectory trajectory = map.trajectory();
+  report.trajectories.push_back(reportTrajectory("trajectory.tum", truth.trajectory, trajectory, options));
+  if (const auto odometry = map.odometry())
+    report.trajectories.push_back(reportTrajectory("odometry.tum", truth.trajectory, *odometry, options));
+  else
+    report.notes.emplace_back("odometry: no odometry.tum in the map folder");
+  report.mapAlignment = options.mapAlignment;
+  report.T_world_map = alignMapToTruth(truth.trajectory, trajectory, options.mapAlignment);
+
+  ObjectFinder finder(truth, options.objectReach_m);
+  measureLayers(map, MeshQuery(truth.world), finder, options, report);
+  report.objects = finder.presence();
+  measureSeabed(map, truth, options, report);
+  return report;
+}
+
+}  // namespace s2s::eval
