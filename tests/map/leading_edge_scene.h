@@ -7,6 +7,7 @@
 
 #include "s2s/core/transform.h"
 #include "s2s/map/scan.h"
+#include "s2s/sonar/ping_geometry.h"
 
 namespace s2s::test {
 
@@ -59,7 +60,7 @@ class LeadingEdgeScene {
     double nearest = std::numeric_limits<double>::infinity();
     for (int i = -200; i <= 200; ++i) {
       const Eigen::Vector3d direction =
-          T_map_sonar.linear() * map::arcPoint(model, 1.0, bearing_rad, 0.5 * kAperture_rad * i / 200);
+          T_map_sonar.linear() * sonar::pointAt({1.0, bearing_rad, 0.5 * kAperture_rad * i / 200}, model);
       nearest = std::min(nearest, range_m(T_map_sonar.translation(), direction));
     }
     return nearest;

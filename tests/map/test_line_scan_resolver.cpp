@@ -112,7 +112,7 @@ TEST(LineScanResolver, NothingKnownAnyAttitude_TheArcHasNoLowerPoint) {
     const Isometry T_map_sonar = isometryFromXyzYpr(0, 0, 0, angle(random), 0.5 * angle(random), angle(random));
     resolver.resolve(scan, T_map_sonar);
     const auto height = [&](double elevation_rad) {
-      return (T_map_sonar * arcPoint(scan.bearingModel, r.range_m, r.bearing_rad, elevation_rad)).z();
+      return (T_map_sonar * s2s::sonar::pointAt({r.range_m, r.bearing_rad, elevation_rad}, scan.bearingModel)).z();
     };
     double lowest = std::numeric_limits<double>::max();
     for (int k = -1000; k <= 1000; ++k) lowest = std::min(lowest, height(0.5 * scan.verticalAperture_rad * k / 1000.0));

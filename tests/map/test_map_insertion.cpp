@@ -7,8 +7,12 @@
 #include <mrpt/obs/CObservationPointCloud.h>
 #include <mrpt/obs/CObservationVelodyneScan.h>
 
+#include <random>
+
 #include "lidar_scene.h"
 #include "s2s/map/CSeabedSkyMap.h"
+#include "s2s/obs/CObservationImagingSonar.h"
+#include "s2s/sonar/ping_geometry.h"
 
 namespace {
 
@@ -124,6 +128,106 @@ TEST(MapInsertion, VelodyneCloud_IsTakenThroughMrpt) {
   scan.sensorPose = toPose(kSensor);
   ASSERT_TRUE(map.insertObservation(scan, toPose(kRobot)));
   EXPECT_LT((lidarPoints(map).at(0).p_map - kRobot * kSensor * Eigen::Vector3d(6, 1, 2)).norm(), 1e-4);
+}
+
+/// A ping with one bright spot of three beams by five bins, in front of it nothing.
+s2s::obs::CObservationImagingSonar spotPing(const Isometry& T_vehicle_sonar, std::uint32_t beam, std::uint32_t bin) {
+  s2s::obs::CObservationImagingSonar ping;
+  ping.sensorLabel = "SONAR";
+  ping.timestamp = s2s::core::toMrptTime(1'733'400'000'000'000'000);
+  ping.sensorPose = toPose(T_vehicle_sonar);
+  ping.beamCount = 64;
+  ping.rangeCount = 400;
+  for (int i = 0; i < 64; ++i) ping.bearings_rad.push_back(static_cast<float>((i - 31.5) * 0.01));
+  ping.rangeResolution_m = 0.02;
+  ping.verticalAperture_rad = 20 * M_PI / 180;
+  ping.samples.assign(64 * 400, 5);
+  for (std::uint32_t b = bin; b < bin + 5; ++b)
+    for (std::uint32_t i = beam - 1; i <= beam + 1; ++i) ping.samples[b * 64 + i] = 250;
+  return ping;
+}
+
+const Isometry kHorizontal = isometryFromXyzYpr(0, 0, -0.4, 0, M_PI / 4, 0);
+const Isometry kVertical = isometryFromXyzYpr(0, 0, -0.4, 0, M_PI / 4, M_PI / 2);
+
+TEST(MapInsertion, SonarPings_BecomeLineScansByTheirMounting) {
+  for (const bool isVertical : {false, true}) {
+    CSeabedSkyMap map;
+    const Isometry& T_vehicle_sonar = isVertical ? kVertical : kHorizontal;
+    const Layer layer = isVertical ? Layer::LineVertical : Layer::LineHorizontal;
+    ASSERT_TRUE(map.insertObservation(spotPing(T_vehicle_sonar, 20, 200), toPose(kRobot)));
+    EXPECT_EQ(map.pointCount(), map.pointCount(layer));
+    ASSERT_EQ(map.pointCount(layer), 3u);
+    map.forEachPoint(layer, [&](const MapPoint& p) {
+      const Eigen::Vector3d p_sonar = (kRobot * T_vehicle_sonar).inverse() * p.p_map;
+      EXPECT_NEAR(p_sonar.norm(), 4.02,
+                  0.021);  // known to a bin, and the vertical sonar's median filter takes a corner off
+      EXPECT_NEAR(std::atan2(p_sonar.y(), p_sonar.x()), (20 - 31.5) * 0.01, 0.0101);  // one of three beams
+    });
+  }
+}
+
+/// Rubble within 0.3 m of a place, painted into a ping of the sonar; the same rubble for every sonar.
+void paintRubble(s2s::obs::CObservationImagingSonar& ping, const Isometry& T_vehicle_sonar,
+                 const Eigen::Vector3d& centre_vehicle) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> offset(-0.17, 0.17);
+  for (int i = 0; i < 150; ++i) {
+    const Eigen::Vector3d p_vehicle = centre_vehicle + Eigen::Vector3d(offset(random), offset(random), offset(random));
+    const auto echo = static_cast<std::uint8_t>(160 + random() % 90);
+    const auto c = s2s::sonar::sonarCoordinates(T_vehicle_sonar.inverse() * p_vehicle, ping.bearingModel);
+    const auto beam = static_cast<std::size_t>(std::lround(c.bearing_rad / 0.01 + 31.5));
+    const auto bin = static_cast<std::size_t>(c.range_m / ping.rangeResolution_m);
+    for (std::size_t b = bin - 1; b <= bin + 1; ++b)
+      for (std::size_t k = beam - 1; k <= beam + 1; ++k)
+        ping.samples[b * 64 + k] = std::max(ping.samples[b * 64 + k], echo);
+  }
+}
+
+TEST(MapInsertion, PingsOfBothSonarsCloseInTime_GiveStereoPoints) {
+  const Eigen::Vector3d rubble = kHorizontal * Eigen::Vector3d(4.5, 0.1, -0.1);
+  auto h = spotPing(kHorizontal, 10, 380), v = spotPing(kVertical, 10, 380);
+  paintRubble(h, kHorizontal, rubble);
+  paintRubble(v, kVertical, rubble);
+  CSeabedSkyMap near;
+  near.insertObservation(h, toPose(kRobot));
+  near.insertObservation(v, toPose(kRobot));
+  EXPECT_GT(near.pointCount(Layer::Stereo), 10u);
+  double sum = 0;
+  near.forEachPoint(Layer::Stereo, [&](const MapPoint& p) { sum += (kRobot.inverse() * p.p_map - rubble).norm(); });
+  // The rubble's half diagonal is 0.29 m; a point whose halves were wrongly paired still lies within its box.
+  EXPECT_LT(sum / static_cast<double>(near.pointCount(Layer::Stereo)), 0.35);
+
+  CSeabedSkyMap apart;
+  v.timestamp = s2s::core::toMrptTime(1'733'400'001'000'000'000);
+  apart.insertObservation(h, toPose(kRobot));
+  apart.insertObservation(v, toPose(kRobot));
+  EXPECT_EQ(apart.pointCount(Layer::Stereo), 0u);
+  EXPECT_GT(apart.pointCount(Layer::LineVertical), 0u);
+}
+
+TEST(MapInsertion, VesselMovedBetweenThePings_IsTakenOut) {
+  const Isometry T_map_later = kRobot * isometryFromXyzYpr(0.08, 0.02, 0, 0.03, 0, 0);
+  const Eigen::Vector3d rubble = kHorizontal * Eigen::Vector3d(4.5, 0.1, -0.1);
+  auto h = spotPing(kHorizontal, 10, 380), v = spotPing(kVertical, 10, 380);
+  paintRubble(h, kHorizontal, rubble);
+  paintRubble(v, kVertical, T_map_later.inverse() * kRobot * rubble);
+  v.timestamp = s2s::core::toMrptTime(1'733'400'000'050'000'000);
+  CSeabedSkyMap map;
+  map.insertObservation(h, toPose(kRobot));
+  map.insertObservation(v, toPose(T_map_later));
+  ASSERT_GT(map.pointCount(Layer::Stereo), 10u);
+  double sum = 0;
+  map.forEachPoint(Layer::Stereo, [&](const MapPoint& p) { sum += (kRobot.inverse() * p.p_map - rubble).norm(); });
+  EXPECT_LT(sum / static_cast<double>(map.pointCount(Layer::Stereo)), 0.35);  // as above
+}
+
+TEST(MapInsertion, DamagedPing_IsRefusedAndLeavesNothing) {
+  CSeabedSkyMap map;
+  auto ping = spotPing(kHorizontal, 20, 200);
+  ping.samples.pop_back();
+  EXPECT_FALSE(map.insertObservation(ping, toPose(kRobot)));
+  EXPECT_TRUE(map.keyframes().empty());
 }
 
 TEST(MapInsertion, ObservationWithoutPoints_IsRefused) {

@@ -7,7 +7,6 @@
 namespace {
 
 using namespace s2s::map;
-using s2s::obs::BearingModel;
 
 TEST(Scan, PackedPoint_KeepsThePlaceExactlyAndTheRestToElevenBits) {
   for (const float intensity : {0.0f, 0.37f, 1.0f, 255.0f, 2047.0f, 30000.0f}) {
@@ -30,19 +29,6 @@ TEST(Scan, SigmaCode_NeverFlattersAndIsStable) {
     EXPECT_EQ(encodeSigma(decoded), encodeSigma(sigma));
   }
   EXPECT_EQ(encodeSigma(std::nan("")), 0);
-}
-
-TEST(Scan, ArcPoint_MeasuresItsRangeAndBearingInBothModels) {
-  for (double bearing = -1.1; bearing <= 1.1; bearing += 0.2)
-    for (double elevation = -0.17; elevation <= 0.17; elevation += 0.05) {
-      const Eigen::Vector3d azimuth = arcPoint(BearingModel::Azimuth, 7, bearing, elevation);
-      EXPECT_NEAR(azimuth.norm(), 7, 1e-12);
-      EXPECT_NEAR(std::atan2(azimuth.y(), azimuth.x()), bearing, 1e-12);
-      const Eigen::Vector3d cone = arcPoint(BearingModel::Cone, 7, bearing, elevation);
-      EXPECT_NEAR(cone.norm(), 7, 1e-12);
-      EXPECT_NEAR(std::asin(cone.y() / cone.norm()), bearing, 1e-12);
-      EXPECT_NEAR(std::asin(azimuth.z() / 7), elevation, 1e-12);
-    }
 }
 
 }  // namespace

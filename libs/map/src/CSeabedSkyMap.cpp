@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "nearest_cache.h"
+#include "ping_pairer.h"
 
 namespace s2s::map {
 
@@ -23,6 +24,7 @@ CSeabedSkyMap& CSeabedSkyMap::operator=(const CSeabedSkyMap& other) {
   counts_ = other.counts_;
   thinner_ = other.thinner_;
   resolver_ = other.resolver_;
+  pairer_ = other.pairer_ ? std::make_shared<PingPairer>(*other.pairer_) : nullptr;
   touch();
   return *this;
 }
@@ -176,7 +178,7 @@ void CSeabedSkyMap::forEachPoint(Layer layer, const std::function<void(const Map
     const core::Isometry T_map_sonar = mapPose(scan.pose) * scan.T_vehicle_sonar;
     out.time = scan.pose.time;
     for (const PackedReturn& r : scan.returns) {
-      out.p_map = T_map_sonar * arcPoint(scan.bearingModel, r.range_m, r.bearing_rad, kElevationStep_rad * r.elevation);
+      out.p_map = T_map_sonar * pointOf(r, scan.bearingModel);
       out.intensity = fromHalf(r.intensityHalf);
       out.sigma_m = static_cast<float>(decodeSigma(r.sigmaCode));
       visit(out);
@@ -242,6 +244,7 @@ void CSeabedSkyMap::internal_clear() {
   counts_ = {};
   thinner_.clear();
   resolver_.reset(options_.resolver);
+  pairer_.reset();
   touch();
 }
 

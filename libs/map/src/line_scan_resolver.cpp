@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "s2s/sonar/ping_geometry.h"
+
 namespace s2s::map {
 
 namespace {
@@ -135,7 +137,8 @@ class PingResolver {
 
   Decision decide(const PackedReturn& r) {
     for (std::size_t i = 0; i < arc_.p_map.size(); ++i)
-      arc_.p_map[i] = T_map_sonar_ * arcPoint(scan_.bearingModel, r.range_m, r.bearing_rad, arc_.elevation_rad[i]);
+      arc_.p_map[i] =
+          T_map_sonar_ * sonar::pointAt({r.range_m, r.bearing_rad, arc_.elevation_rad[i]}, scan_.bearingModel);
     const double rangeSigma = fromHalf(r.rangeSigmaHalf);
     const std::optional<Decision> seabed = meetSeabed(rangeSigma), wall = meetWall(rangeSigma);
     if (seabed && wall) return seabed->misfit <= wall->misfit ? *seabed : *wall;
@@ -217,8 +220,7 @@ void LineScanResolver::addProfile(const StoredLineScan& scan, const core::Isomet
     // A surface touches the arc tangentially, so that a wrong elevation moves the point along the surface: only range
     // and bearing count for the surface's height.
     const double sigma_m = std::hypot(fromHalf(r.rangeSigmaHalf), r.range_m * scan.bearingSigma_rad);
-    addSonarEvidence(
-        T_map_sonar * arcPoint(scan.bearingModel, r.range_m, r.bearing_rad, kElevationStep_rad * r.elevation), sigma_m);
+    addSonarEvidence(T_map_sonar * pointOf(r, scan.bearingModel), sigma_m);
   }
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "s2s/sonar/ping_geometry.h"
+
 namespace s2s::map {
 
 namespace {
@@ -13,12 +15,8 @@ constexpr double kSigmaStep = 1.04;  // 1 mm * 1.04^255 = 22 m
 
 }  // namespace
 
-Eigen::Vector3d arcPoint(obs::BearingModel model, double range_m, double bearing_rad, double elevation_rad) {
-  const double ce = std::cos(elevation_rad), se = std::sin(elevation_rad);
-  const double cb = std::cos(bearing_rad), sb = std::sin(bearing_rad);
-  if (model == obs::BearingModel::Azimuth) return range_m * Eigen::Vector3d(ce * cb, ce * sb, se);
-  const double z = std::clamp(se, -std::abs(cb), std::abs(cb));
-  return range_m * Eigen::Vector3d(std::sqrt(std::max(0.0, cb * cb - z * z)), sb, z);
+Eigen::Vector3d pointOf(const PackedReturn& packed, obs::BearingModel model) {
+  return sonar::pointAt({packed.range_m, packed.bearing_rad, kElevationStep_rad * packed.elevation}, model);
 }
 
 std::uint16_t toHalf(float value) {

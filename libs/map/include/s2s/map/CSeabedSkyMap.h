@@ -25,6 +25,7 @@ namespace s2s::map {
 
 struct NearestCache;
 std::shared_ptr<NearestCache> makeNearestCache();
+class PingPairer;
 
 /// One map from the seabed to the sky: layers of points (LiDAR, sonar stereo, line-scans of two sonars) that hang on
 /// the keyframes of a pose graph, at and between them (paper, section "Map Generation").
@@ -137,6 +138,8 @@ class CSeabedSkyMap : public mrpt::maps::CMetricMap {
   std::size_t store(const ScanPose& pose, const LineScan& scan);
   void gatherEvidence(const StoredScan& scan);
   void resolve(StoredLineScan& scan);
+  bool insertPing(const obs::CObservationImagingSonar& ping,
+                  const std::optional<const mrpt::poses::CPose3D>& robotPose);
   /// Forgets what was derived from the present content.
   void touch();
   /// Counts, evidence and the state of the thinning, from the scans as they are.
@@ -150,6 +153,7 @@ class CSeabedSkyMap : public mrpt::maps::CMetricMap {
   VoxelThinner thinner_;
   LineScanResolver resolver_;
   std::shared_ptr<NearestCache> nearest_ = makeNearestCache();
+  std::shared_ptr<PingPairer> pairer_;  // made with the first ping that MRPT inserts
 
   MAP_DEFINITION_START(CSeabedSkyMap)
   s2s::map::MapOptions options;

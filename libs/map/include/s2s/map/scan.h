@@ -44,10 +44,6 @@ enum class ElevationSource : std::uint8_t {
   LowestPoint = 3  ///< nothing known: where a level seabed would be met first, the lowest point of the arc
 };
 
-/// p_sonar of a return at an elevation, asin(z / |p|), from the imaging plane. Under the cone model bearing and
-/// elevation together cannot exceed 90 degrees; an elevation beyond that is taken as the largest possible one.
-Eigen::Vector3d arcPoint(obs::BearingModel model, double range_m, double bearing_rad, double elevation_rad);
-
 /// Sixteen bytes a point: intensity and sigma as half floats (11 significant bits, at most 65504).
 struct PackedPoint {
   float x = 0, y = 0, z = 0;
@@ -75,6 +71,9 @@ float fromHalf(std::uint16_t half);
 /// One byte for 1 mm to some 10 m with 4 % between steps; rounds up, so that a sigma is never flattered.
 std::uint8_t encodeSigma(double sigma_m);
 double decodeSigma(std::uint8_t code);
+
+/// p_sonar of a return at the elevation that was decided.
+Eigen::Vector3d pointOf(const PackedReturn& packed, obs::BearingModel model);
 
 /// What all kinds of scan have in common: when and where the vehicle was.
 struct ScanPose {

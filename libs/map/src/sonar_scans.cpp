@@ -1,0 +1,35 @@
+#include "s2s/map/sonar_scans.h"
+
+#include <cmath>
+
+namespace s2s::map {
+
+LineScan toMapLineScan(const sonar::LineScan& leadingEdge, const core::Isometry& T_vehicle_sonar) {
+  LineScan scan;
+  scan.T_vehicle_sonar = T_vehicle_sonar;
+  scan.verticalAperture_rad = leadingEdge.verticalAperture_rad;
+  scan.bearingModel = leadingEdge.bearingModel;
+  scan.bearingSigma_rad = leadingEdge.bearingSigma_rad;
+  scan.returns.reserve(leadingEdge.returns.size());
+  for (const sonar::LineReturn& r : leadingEdge.returns)
+    if (r.order == 0)
+      scan.returns.push_back({static_cast<float>(r.range_m), static_cast<float>(r.bearing_rad), r.intensity,
+                              static_cast<float>(r.rangeSigma_m)});
+  return scan;
+}
+
+std::vector<ScanPoint> toScanPoints(const std::vector<sonar::StereoPoint>& points,
+                                    const core::Isometry& T_vehicle_horizontal) {
+  std::vector<ScanPoint> out;
+  out.reserve(points.size());
+  for (const sonar::StereoPoint& point : points)
+    out.push_back(
+        {(T_vehicle_horizontal * point.p_h).cast<float>(), point.intensity, static_cast<float>(point.sigma_m())});
+  return out;
+}
+
+bool isVerticalSonar(const core::Isometry& T_vehicle_sonar) {
+  return std::abs(T_vehicle_sonar.linear()(1, 1)) < std::sqrt(0.5);
+}
+
+}  // namespace s2s::map
