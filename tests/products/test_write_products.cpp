@@ -43,7 +43,7 @@ TEST(WriteProducts, Everything_IsThereWithTheStatedNamesAndSizes) {
   for (const char* name :
        {"trajectory.tum", "odometry.tum", "keyframes.tum", "trajectory.kitti", "trajectory_times.txt", "lidar.ply",
         "stereo.ply", "line_horizontal.ply", "line_vertical.ply", "map.ply", "map.las", "seabed.tif", "seabed.bag",
-        "map.3Dscene", "map.simplemap", "summary.json"})
+        "map.3Dscene", "map.simplemap", "map.png", "summary.json", "report.html"})
     EXPECT_EQ(names(result).count(name), 1U) << name;
   EXPECT_EQ(folder.fileCount(), result.files.size()) << "nothing else, and nothing half written";
   EXPECT_EQ(announced.size(), result.files.size());

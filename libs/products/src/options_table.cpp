@@ -16,6 +16,8 @@ void addGrid(core::OptionTable& table, SeabedGridOptions& grid) {
            "share of its weight that this layer must hold, else it is a wall", {0, 1})
       .add("grid_max_step_m", grid.maxStep_m, "a cell that differs more from its neighbours is no seabed",
            core::positive())
+      .add("grid_max_doubtful_step_m", grid.maxDoubtfulStep_m, "the same for a cell that holds more than seabed",
+           core::positive())
       .add("grid_sigma_floor_m", grid.sigmaFloor_m, "smallest standard deviation believed of a sounding", {0.001, 10})
       .add("grid_max_cells", grid.maxCells, "a larger grid is refused", core::atLeast(1));
 }

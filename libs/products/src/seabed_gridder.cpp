@@ -123,6 +123,7 @@ SeabedGridder::Verdict SeabedGridder::estimate(const Cell& cell, Estimate& resul
   Cell layer = cell;
   if (spread_cm > options_.flatSpread_m * kBinsPerMetre) {
     layer = seabedLayer(cell);
+    result.doubtful = true;
     if (totalWeight(layer) < options_.minSeabedShare * totalWeight(cell)) return Verdict::Wall;
   }
   result.count = countOf(layer);
@@ -160,18 +161,20 @@ HeightGrid SeabedGridder::grid() {
         "seabed grid", "choose a larger cell, or look for sonar points far away from the survey");
   HeightGrid grid(static_cast<double>(minColumn) * options_.cell_m, static_cast<double>(minRow) * options_.cell_m,
                   options_.cell_m, static_cast<int>(columns), static_cast<int>(rows));
+  std::vector<bool> doubtful(grid.height_m.size(), false);
   for (const auto& [key, result] : estimates) {
     const std::size_t at =
         grid.index(static_cast<int>(columnOf(key) - minColumn), static_cast<int>(rowOf(key) - minRow));
     grid.height_m[at] = static_cast<float>(result.height_m);
     grid.sigma_m[at] = static_cast<float>(result.sigma_m);
     grid.count[at] = result.count;
+    doubtful[at] = result.doubtful;
   }
-  removeSteps(grid);
+  removeSteps(grid, doubtful);
   return grid;
 }
 
-void SeabedGridder::removeSteps(HeightGrid& grid) {
+void SeabedGridder::removeSteps(HeightGrid& grid, const std::vector<bool>& doubtful) {
   constexpr float kEmpty = std::numeric_limits<float>::quiet_NaN();
   const std::vector<float> before = grid.height_m;
   double minHeight = std::numeric_limits<double>::infinity(), maxHeight = -minHeight;
@@ -188,7 +191,8 @@ void SeabedGridder::removeSteps(HeightGrid& grid) {
       if (neighbours.size() >= kMinNeighbours) {
         const auto middle = neighbours.begin() + static_cast<std::ptrdiff_t>(neighbours.size() / 2);
         std::nth_element(neighbours.begin(), middle, neighbours.end());
-        if (std::abs(before[at] - *middle) > options_.maxStep_m) {
+        const double limit_m = doubtful[at] ? options_.maxDoubtfulStep_m : options_.maxStep_m;
+        if (std::abs(before[at] - *middle) > limit_m) {
           grid.height_m[at] = grid.sigma_m[at] = kEmpty;
           grid.count[at] = 0;
           ++statistics_.steps;

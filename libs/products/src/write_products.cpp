@@ -6,13 +6,17 @@
 #include <filesystem>
 #include <memory>
 
+#include "picture_drawing.h"
 #include "s2s/core/atomic_file.h"
 #include "s2s/core/error.h"
 #include "s2s/products/cloud_statistics.h"
 #include "s2s/products/grid_files.h"
 #include "s2s/products/las_writer.h"
+#include "s2s/products/map_pictures.h"
+#include "s2s/products/map_source.h"
 #include "s2s/products/mrpt_files.h"
 #include "s2s/products/ply_writer.h"
+#include "s2s/products/report_page.h"
 #include "s2s/products/trajectory_files.h"
 
 namespace s2s::products {
@@ -50,7 +54,12 @@ class Writing {
  public:
   Writing(const PointSource& points, const Trajectories& trajectories, RunSummary summary,
           const ProductsOptions& options, std::string dir, const std::function<void(const std::string&)>& onFile)
-      : points_(points), trajectories_(trajectories), options_(options), dir_(std::move(dir)), onFile_(onFile) {
+      : points_(points),
+        trajectories_(trajectories),
+        options_(options),
+        dir_(std::move(dir)),
+        onFile_(onFile),
+        crossSection_(SurveyFrame(trajectories.optimised, {}), options.pictures.sectionThickness_m) {
     result_.summary = std::move(summary);
     waterHeight_m_ = waterHeight(result_.summary, trajectories_.optimised);
   }
@@ -61,6 +70,7 @@ class Writing {
     writeGrid();
     secondPass();
     writeSummary();
+    if (options_.report) writeReport();
     return std::move(result_);
   }
 
@@ -102,6 +112,7 @@ class Writing {
         if (ply) ply->add(point);
         if (all) all->add(point);
         if (wantsGrid()) gridder().add(point);
+        if (options_.report) crossSection_.add(point);
       });
       if (ply) {
         ply->finish();
@@ -145,6 +156,16 @@ class Writing {
             statistics_.heightQuantile_m(kSonarLayers, 0.01), waterHeight_m_};
   }
 
+  PictureContext pictureContext() const {
+    PictureContext context;
+    context.frame = SurveyFrame(trajectories_.optimised, statistics_);
+    context.statistics = statistics_;
+    context.path = trajectories_.optimised;
+    context.waterHeight_m = waterHeight_m_;
+    context.crossSectionStation_m = crossSection_.station_m();
+    return context;
+  }
+
   LasFrame lasFrame() const {
     LasFrame frame;
     frame.offset_m = statistics_.roundMiddle();
@@ -160,6 +181,8 @@ class Writing {
     std::unique_ptr<LasWriter> las;
     std::unique_ptr<SceneBuilder> scene;
     std::unique_ptr<SimpleMapBuilder> simpleMap;
+    if (options_.picture || options_.report)
+      pictures_ = std::make_unique<MapPictures>(pictureContext(), options_.pictures);
     const auto stride = [&](int limit) { return strideFor(statistics_.count(), static_cast<std::uint64_t>(limit)); };
     if (options_.las) las = std::make_unique<LasWriter>(begin("map.las"), lasFrame());
     if (options_.scene) scene = std::make_unique<SceneBuilder>(colours(), stride(options_.sceneMaxPoints));
@@ -172,6 +195,7 @@ class Writing {
         if (las && !las->add(point)) ++outsideLas;
         if (scene) scene->add(point);
         if (simpleMap) simpleMap->add(point);
+        if (pictures_) pictures_->add(point);
       });
     if (outsideLas > 0) warn(std::to_string(outsideLas) + " points lie too far away for LAS and were left out of it");
     if (las) {
@@ -183,6 +207,7 @@ class Writing {
         scene->write(path, trajectories_.optimised, trajectories_.keyframes, waterHeight_m_);
       });
     if (simpleMap) file("map.simplemap", [&](const auto& path) { simpleMap->write(path); });
+    if (options_.picture) file("map.png", [&](const auto& path) { writePicture(path, pictures_->oblique()); });
   }
 
   void writeSummary() {
@@ -191,6 +216,37 @@ class Writing {
     result_.summary.stageTimes_s.emplace_back("products", products_s);
     result_.summary.peakRss_mb = std::max(result_.summary.peakRss_mb, peakRss_mb());
     file("summary.json", [&](const auto& path) { core::writeTextFile(path, toJson(result_.summary)); });
+  }
+
+  void writeReport() {
+    ReportContent content;
+    content.summary = result_.summary;
+    content.seabed = result_.seabed;
+    content.gridCell_m = options_.grid.cell_m;
+    content.pictures = reportPictures();
+    for (const auto& written : result_.files) content.files.push_back({written.name, written.bytes});
+    file("report.html", [&](const auto& path) { core::writeTextFile(path, reportPage(content)); });
+  }
+
+  std::vector<ReportPicture> reportPictures() const {
+    // Point clouds are noisy and thrice as large as PNG; what is drawn with lines stays sharp as PNG.
+    std::vector<ReportPicture> out = {{"The map from the side",
+                                       "LiDAR points by height, sonar points by depth; cut open towards the viewer: "
+                                       "LiDAR points nearer than the path "
+                                       "are left out. Parallel projection, so the scale bar holds across the picture.",
+                                       "image/jpeg", encode(pictures_->oblique(), ".jpg")},
+                                      {"The map from above", "The path's principal direction runs to the right.",
+                                       "image/jpeg", encode(pictures_->top(), ".jpg")}};
+    if (grid_.columns > 0)
+      out.push_back(
+          {"Seabed grid", "Median depths in cells of the map frame, with relief shading; white: no height.",
+           "image/png",
+           encode(drawGrid(grid_, waterHeight_m_, options_.pictures.width_px, options_.pictures.height_px), ".png")});
+    out.push_back({"Cross section", "A slab across the survey, where LiDAR and sonar see most together.", "image/png",
+                   encode(pictures_->crossSection(), ".png")});
+    out.push_back({"Long section", "A slab along the survey, through the middle of the path.", "image/png",
+                   encode(pictures_->longSection(), ".png")});
+    return out;
   }
 
   void warn(const std::string& text) { result_.summary.warnings.push_back(text); }
@@ -204,7 +260,9 @@ class Writing {
   double waterHeight_m_ = 0;
   CloudStatistics statistics_;
   std::unique_ptr<SeabedGridder> gridder_;
+  CrossSectionFinder crossSection_;
   HeightGrid grid_;
+  std::unique_ptr<MapPictures> pictures_;
   ProductsResult result_;
 };
 
@@ -214,6 +272,12 @@ ProductsResult writeProducts(const PointSource& points, const Trajectories& traj
                              const ProductsOptions& options, const std::string& dir,
                              const std::function<void(const std::string&)>& onFile) {
   return Writing(points, trajectories, std::move(summary), options, dir, onFile).run();
+}
+
+ProductsResult writeProducts(const map::CSeabedSkyMap& map, const Trajectories& trajectories, RunSummary summary,
+                             const ProductsOptions& options, const std::string& dir,
+                             const std::function<void(const std::string&)>& onFile) {
+  return writeProducts(pointsOf(map), trajectories, std::move(summary), options, dir, onFile);
 }
 
 }  // namespace s2s::products

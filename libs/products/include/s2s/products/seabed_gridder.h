@@ -11,14 +11,15 @@ namespace s2s::products {
 
 struct SeabedGridOptions {
   double cell_m = 0.5;
-  int minPoints = 3;             ///< soundings a cell needs
-  double minDepth_m = 0.3;       ///< soundings nearer to the water surface are not used
-  double flatSpread_m = 0.6;     ///< a cell whose soundings span more than this holds more than seabed
-  double window_m = 0.4;         ///< height of the layer in which the seabed of such a cell is sought
-  double minSeabedShare = 0.25;  ///< share of such a cell's weight that the layer must hold, else it is a wall
-  double maxStep_m = 1.0;        ///< a cell that differs more from its neighbours' median is no seabed
-  double sigmaFloor_m = 0.02;    ///< smallest standard deviation that a single sounding is believed to have
-  int maxCells = 100'000'000;    ///< a larger grid is refused
+  int minPoints = 3;               ///< soundings a cell needs
+  double minDepth_m = 0.3;         ///< soundings nearer to the water surface are not used
+  double flatSpread_m = 0.6;       ///< a cell whose soundings span more than this holds more than seabed
+  double window_m = 0.4;           ///< height of the layer in which the seabed of such a cell is sought
+  double minSeabedShare = 0.25;    ///< share of such a cell's weight that the layer must hold, else it is a wall
+  double maxStep_m = 1.0;          ///< a cell that differs more from its neighbours' median is no seabed
+  double maxDoubtfulStep_m = 0.4;  ///< the same for a cell that holds more than seabed
+  double sigmaFloor_m = 0.02;      ///< smallest standard deviation that a single sounding is believed to have
+  int maxCells = 100'000'000;      ///< a larger grid is refused
 };
 
 /// What became of the soundings and cells.
@@ -39,10 +40,10 @@ struct SeabedGridStatistics {
 /// Each cell keeps a histogram of its soundings' heights (1 cm), so memory follows the area and not the number of
 /// soundings. The height is the median weighted by 1/sigma². Where a cell spans more than `flatSpread_m`, as at a quay
 /// wall, it is the weighted median inside the lowest layer of `window_m` that is at least half as dense as the densest:
-/// neither the wall above nor a few false echoes below move it. The stated sigma is
-/// sqrt(s²/n + v): s the scatter about the median (1.4826 MAD), n the soundings, v the weighted mean of the soundings'
-/// own variances. v is not divided by n, since mounting, pose and elevation errors are common to neighbouring
-/// soundings.
+/// neither the wall above nor a few false echoes below move it; it must then agree with its neighbours more closely.
+/// The stated sigma is sqrt(s²/n + v): s the scatter about the median (1.4826 MAD), n the soundings, v the weighted
+/// mean of the soundings' own variances. v is not divided by n, since mounting, pose and elevation errors are common to
+/// neighbouring soundings.
 class SeabedGridder {
  public:
   /// @param waterHeight_m height of the water surface in the map frame
@@ -66,12 +67,13 @@ class SeabedGridder {
   struct Estimate {
     double height_m = 0, sigma_m = 0;
     std::uint32_t count = 0;
+    bool doubtful = false;  ///< the cell holds more than seabed
   };
   enum class Verdict { Seabed, FewPoints, Wall };
 
   Verdict estimate(const Cell& cell, Estimate& result) const;
   Cell seabedLayer(const Cell& cell) const;
-  void removeSteps(HeightGrid& grid);
+  void removeSteps(HeightGrid& grid, const std::vector<bool>& doubtful);
 
   SeabedGridOptions options_;
   double ceiling_m_;

@@ -10,6 +10,10 @@
 #include "s2s/products/products_options.h"
 #include "s2s/products/run_summary.h"
 
+namespace s2s::map {
+class CSeabedSkyMap;
+}
+
 namespace s2s::products {
 
 /// The vehicle's paths of a run.
@@ -39,6 +43,11 @@ struct ProductsResult {
 /// @param onFile  is called with each file's name before it is written, for progress
 /// @throws core::OutputError if the folder cannot be written to
 ProductsResult writeProducts(const PointSource& points, const Trajectories& trajectories, RunSummary summary,
+                             const ProductsOptions& options, const std::string& dir,
+                             const std::function<void(const std::string&)>& onFile = {});
+
+/// The same with the points of a map.
+ProductsResult writeProducts(const map::CSeabedSkyMap& map, const Trajectories& trajectories, RunSummary summary,
                              const ProductsOptions& options, const std::string& dir,
                              const std::function<void(const std::string&)>& onFile = {});
 
