@@ -60,6 +60,14 @@ void parseLidarMode(const std::string& text, LidarOptions& o) {
   o.rate_hz = rate;
 }
 
+/// Buffers of one column.
+struct LidarModel::Column {
+  std::vector<Ray> rays;
+  std::vector<double> water_m;  // range at which the beam meets the water; infinite if it does not
+  std::vector<RayHit> hits;
+  std::vector<LidarEcho> echoes;
+};
+
 LidarModel::LidarModel(const LidarOptions& options, const Isometry& T_vehicle_sensor, const Scene& scene,
                        const RayCaster& caster, std::uint64_t seed)
     : options_(options),
@@ -67,45 +75,79 @@ LidarModel::LidarModel(const LidarOptions& options, const Isometry& T_vehicle_se
       scene_(scene),
       caster_(caster),
       seed_(seed),
-      prototype_(makePrototype(options)) {}
+      prototype_(makePrototype(options)) {
+  if (options.effects.ownVessel && !scene.vesselParts.empty()) findOwnVessel();
+}
 
-void LidarModel::castColumn(const Isometry& T_world_sensor, const obs::CObservationLidarSweep& sweep,
-                            std::size_t column, std::vector<Ray>& rays) const {
-  const Isometry T_world_lidar = T_world_sensor * core::toIsometry(sweep.T_sensor_lidar);
-  const double azimuth = sweep.columnAzimuth_rad[column];
-  const Vector3d origin =
-      T_world_lidar * Vector3d(kBeamOriginOffset_m * std::cos(azimuth), kBeamOriginOffset_m * std::sin(azimuth), 0);
-  for (std::size_t row = 0; row < sweep.rowCount; ++row) {
-    const double altitude = sweep.beamAltitude_rad[row], theta = azimuth + sweep.beamAzimuth_rad[row];
-    const Vector3d direction =
-        T_world_lidar.linear() *
-        Vector3d(std::cos(altitude) * std::cos(theta), std::cos(altitude) * std::sin(theta), std::sin(altitude));
-    double reach = options_.maxRange_m;
-    if (direction.z() < -1e-6) reach = std::min(reach, origin.z() / -direction.z());  // nothing from below the water
-    rays.push_back({origin.cast<float>(), direction.cast<float>(), static_cast<float>(std::max(0.0, reach))});
+void LidarModel::findOwnVessel() {
+  const RayCaster vessel(scene_.vesselParts);
+  ownVessel_.resize(prototype_.pixelCount());
+  Column work;
+  for (std::size_t column = 0; column < prototype_.columnCount; ++column) {
+    makeRays(T_vehicle_sensor_, column, work);
+    for (Ray& ray : work.rays) ray.maxRange_m = 20;
+    vessel.cast(work.rays, work.hits);
+    for (std::size_t row = 0; row < work.rays.size(); ++row)
+      if (work.hits[row].hit())
+        ownVessel_[column * prototype_.rowCount + row] = echoOf(
+            work.hits[row], work.rays[row], scene_.materials[scene_.vesselParts[work.hits[row].object].material]);
   }
 }
 
-void LidarModel::record(const std::vector<Ray>& rays, const std::vector<RayHit>& hits, std::size_t column,
-                        Random& random, obs::CObservationLidarSweep& sweep) const {
-  for (std::size_t row = 0; row < rays.size(); ++row) {
-    const RayHit& hit = hits[row];
-    if (!hit.hit() || hit.range_m < options_.minRange_m) continue;
-    const Material& material = scene_.materials[scene_.objects[hit.object].material];
-    const double cosIncidence = -hit.normal.dot(rays[row].direction);
-    const double brightness = material.retro ? 10 : material.reflectivity * cosIncidence;
-    double range_m = hit.range_m;
-    if (options_.noise) {
-      // Half the white surfaces are lost at the nominal range; the signal falls with its square.
-      const double signal = brightness * std::pow(options_.dropoutReflectivityRange_m / range_m, 2);
-      if (random.uniform() > 1 - std::pow(0.5, signal)) continue;
-      range_m += (options_.rangeSigma_m + options_.rangeSigmaFar_mPerM * range_m) * random.normal();
-    }
-    const std::size_t pixel = row * sweep.columnCount + column;
-    sweep.echoes[0].range[pixel] =
-        static_cast<std::uint32_t>(std::lround((range_m + kBeamOriginOffset_m) / sweep.rangeResolution_m));
-    sweep.echoes[0].reflectivity[pixel] = static_cast<std::uint16_t>(std::lround(std::min(255.0, 100 * brightness)));
+void LidarModel::makeRays(const Isometry& T_world_sensor, std::size_t column, Column& work) const {
+  const Isometry T_world_lidar = T_world_sensor * core::toIsometry(prototype_.T_sensor_lidar);
+  const double azimuth = prototype_.columnAzimuth_rad[column];
+  const Vector3d origin =
+      T_world_lidar * Vector3d(kBeamOriginOffset_m * std::cos(azimuth), kBeamOriginOffset_m * std::sin(azimuth), 0);
+  work.rays.clear();
+  work.water_m.clear();
+  for (std::size_t row = 0; row < prototype_.rowCount; ++row) {
+    const double altitude = prototype_.beamAltitude_rad[row], theta = azimuth + prototype_.beamAzimuth_rad[row];
+    const Vector3d direction =
+        T_world_lidar.linear() *
+        Vector3d(std::cos(altitude) * std::cos(theta), std::cos(altitude) * std::sin(theta), std::sin(altitude));
+    const double water_m =
+        direction.z() < -1e-6 ? origin.z() / -direction.z() : std::numeric_limits<double>::infinity();
+    const double reach_m = std::clamp(water_m, 0.0, options_.maxRange_m);  // nothing from below the water
+    work.rays.push_back({origin.cast<float>(), direction.cast<float>(), static_cast<float>(reach_m)});
+    work.water_m.push_back(water_m);
   }
+}
+
+void LidarModel::addWater(Random& random, Column& work) const {
+  const LidarEffects& e = options_.effects;
+  for (std::size_t row = 0; row < work.rays.size(); ++row) {
+    if (work.echoes[row].present() || work.water_m[row] > options_.maxRange_m) continue;
+    if (e.waterReturns) work.echoes[row] = waterReturn(work.rays[row], work.water_m[row], e, random);
+    if (work.echoes[row].present() || !e.waterGhosts) continue;
+    const MirroredRay mirrored = mirrorAtWater(work.rays[row], work.water_m[row], options_.maxRange_m);
+    // Both ways go over the surface; below a thousandth nothing of it would be detected.
+    const double power = e.waterSmoothness * mirrored.reflectance * mirrored.reflectance;
+    if (power < 1e-3 || random.uniform() > e.waterSmoothness) continue;
+    const RayHit hit = caster_.cast(mirrored.ray);
+    if (!hit.hit()) continue;
+    work.echoes[row] = echoOf(hit, mirrored.ray, scene_.materials[scene_.objects[hit.object].material]);
+    work.echoes[row].brightness *= mirrored.reflectance * mirrored.reflectance;
+    work.echoes[row].range_m += work.water_m[row];
+  }
+}
+
+void LidarModel::findEchoes(std::size_t column, Random& random, Column& work) const {
+  caster_.cast(work.rays, work.hits);
+  work.echoes.assign(work.rays.size(), {});
+  for (std::size_t row = 0; row < work.rays.size(); ++row)
+    if (work.hits[row].hit())
+      work.echoes[row] =
+          echoOf(work.hits[row], work.rays[row], scene_.materials[scene_.objects[work.hits[row].object].material]);
+  if (options_.effects.waterReturns || options_.effects.waterGhosts) addWater(random, work);
+  if (!ownVessel_.empty())
+    for (std::size_t row = 0; row < work.rays.size(); ++row) {
+      const LidarEcho& own = ownVessel_[column * prototype_.rowCount + row];
+      if (own.present() && (!work.echoes[row].present() || own.range_m < work.echoes[row].range_m))
+        work.echoes[row] = own;
+    }
+  if (options_.effects.mixedPixels && options_.rows > 1)
+    mixPixels(work.echoes, options_.verticalFov_rad / (options_.rows - 1), options_.effects, random);
 }
 
 obs::CObservationLidarSweep::Ptr LidarModel::sweep(const VesselMotion& motion, double t_s, core::TimeNs time,
@@ -114,13 +156,20 @@ obs::CObservationLidarSweep::Ptr LidarModel::sweep(const VesselMotion& motion, d
   sweep->timestamp = core::toMrptTime(time);
   sweep->frameId = number;
   Random random(seed_, 2, number);
-  std::vector<Ray> rays;
-  std::vector<RayHit> hits;
+  Column work;
   for (std::size_t column = 0; column < sweep->columnCount; ++column) {
-    rays.clear();
-    castColumn(motion.pose(t_s + 1e-9 * sweep->columnTime_ns[column]) * T_vehicle_sensor_, *sweep, column, rays);
-    caster_.cast(rays, hits);
-    record(rays, hits, column, random, *sweep);
+    makeRays(motion.pose(t_s + 1e-9 * sweep->columnTime_ns[column]) * T_vehicle_sensor_, column, work);
+    findEchoes(column, random, work);
+    for (std::size_t row = 0; row < sweep->rowCount; ++row) {
+      const LidarEcho& echo = work.echoes[row];
+      const double range_m = detectedRange_m(echo, options_.effects, random);
+      if (range_m < options_.minRange_m) continue;
+      const std::size_t pixel = row * sweep->columnCount + column;
+      sweep->echoes[0].range[pixel] =
+          static_cast<std::uint32_t>(std::lround((range_m + kBeamOriginOffset_m) / sweep->rangeResolution_m));
+      sweep->echoes[0].reflectivity[pixel] =
+          static_cast<std::uint16_t>(std::lround(std::min(255.0, 100 * echo.brightness)));
+    }
   }
   return sweep;
 }

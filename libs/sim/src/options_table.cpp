@@ -43,12 +43,26 @@ OptionTable optionTable(LidarOptions& o) {
       .add("rate_hz", o.rate_hz, "revolutions a second", positive())
       .addDegrees("vertical_fov_deg", o.verticalFov_rad, "from the highest to the lowest beam", {0, 180})
       .add("min_range_m", o.minRange_m, "nearer returns are dropped", atLeast(0))
-      .add("max_range_m", o.maxRange_m, "farther returns are dropped", positive())
-      .add("noise", o.noise, "range noise and dropouts")
-      .add("range_sigma_m", o.rangeSigma_m, "range noise, constant part", atLeast(0))
-      .add("range_sigma_far_m_per_m", o.rangeSigmaFar_mPerM, "range noise, part growing with range", atLeast(0))
-      .add("half_range_m", o.dropoutReflectivityRange_m, "a white surface is lost every other time at this range",
-           positive());
+      .add("max_range_m", o.maxRange_m, "farther returns are dropped", positive());
+  LidarEffects& e = o.effects;
+  t.add("noise", e.noise, "range noise")
+      .add("range_sigma_m", e.rangeSigma_m, "range noise, constant part", atLeast(0))
+      .add("range_sigma_far_m_per_m", e.rangeSigmaFar_mPerM, "range noise, part growing with range", atLeast(0))
+      .addDegrees("beam_divergence_deg", e.beamDivergence_rad, "full width of a beam", {0, 5})
+      .add("bias", e.bias, "range bias by incidence and reflectivity")
+      .add("incidence_bias_m", e.incidenceBias_m, "times 1/cos(incidence) - 1")
+      .add("dark_bias_m", e.darkBias_m, "on a surface of no reflectivity")
+      .add("dropouts", e.dropouts, "weak echoes are lost")
+      .add("half_range_m", e.halfRange_m, "a white surface is lost every other time at this range", positive())
+      .add("mixed_pixels", e.mixedPixels, "echoes merge at edges")
+      .add("mixed_max_gap_m", e.mixedMaxGap_m, "echoes further apart do not merge", atLeast(0))
+      .add("own_vessel", e.ownVessel, "returns from the vessel's own parts")
+      .add("water_returns", e.waterReturns, "sparse returns from the water surface")
+      .add("water_return_share", e.waterReturnShare, "of the beams that meet it close by", {0, 1})
+      .add("water_return_range_m", e.waterReturnRange_m, "e-fold of their decrease", positive())
+      .add("wave_height_sigma_m", e.waveHeightSigma_m, "scatter of their heights", atLeast(0))
+      .add("water_ghosts", e.waterGhosts, "mirror images below the surface")
+      .add("water_smoothness", e.waterSmoothness, "share of the surface that mirrors", {0, 1});
   return t;
 }
 

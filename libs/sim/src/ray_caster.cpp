@@ -62,10 +62,10 @@ RayHit resultOf(const RTCRayHit& r) {
 
 }  // namespace
 
-RayCaster::RayCaster(const Scene& scene) : embree_(std::make_unique<Embree>()) {
+RayCaster::RayCaster(const std::vector<SceneObject>& objects) : embree_(std::make_unique<Embree>()) {
   rtcSetSceneFlags(embree_->scene, RTC_SCENE_FLAG_ROBUST);
-  for (std::size_t i = 0; i < scene.objects.size(); ++i)
-    if (!scene.objects[i].mesh.empty()) embree_->add(scene.objects[i].mesh, static_cast<std::uint32_t>(i));
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    if (!objects[i].mesh.empty()) embree_->add(objects[i].mesh, static_cast<std::uint32_t>(i));
   rtcCommitScene(embree_->scene);
 }
 

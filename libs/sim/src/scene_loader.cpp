@@ -3,6 +3,7 @@
 #include "s2s/core/error.h"
 #include "s2s/core/option_table.h"
 #include "s2s/sim/random.h"
+#include "s2s/sim/shapes.h"
 #include "scene_objects.h"
 
 namespace s2s::sim {
@@ -12,6 +13,7 @@ namespace {
 using core::ConfigError;
 using core::IniFile;
 using core::OptionTable;
+using Eigen::Vector3d;
 
 std::string nameAfter(const std::string& section, const std::string& prefix) { return section.substr(prefix.size()); }
 
@@ -67,19 +69,32 @@ std::vector<Material> loadMaterials(IniFile& ini) {
   return materials;
 }
 
-std::vector<ControlPoint> loadControlPoints(IniFile& ini) {
-  std::vector<ControlPoint> points;
+/// A reflecting board around a control point, facing along `yaw_rad`.
+SceneObject makeBoard(const ControlPoint& point, double size_m, double yaw_rad, std::size_t material) {
+  constexpr double kThickness_m = 0.01;
+  SceneObject board{"board_" + point.id, ObjectKind::Target, material, makeBox({kThickness_m, size_m, size_m})};
+  const Vector3d& p = point.position_m;
+  board.mesh.transform(core::isometryFromXyzYpr(p.x(), p.y(), p.z(), yaw_rad, 0, 0));
+  return board;
+}
+
+void loadControlPoints(IniFile& ini, Scene& scene) {
+  std::size_t retro = 0;
+  while (scene.materials[retro].name != "retro") ++retro;
   for (const auto& section : ini.sectionsStartingWith("control_point.")) {
     ControlPoint p;
+    double boardSize_m = 0.4, yaw_rad = 0;
     p.id = nameAfter(section, "control_point.");
     OptionTable()
         .add("x_m", p.position_m.x(), "world position")
         .add("y_m", p.position_m.y(), "world position")
         .add("z_m", p.position_m.z(), "world position")
+        .add("board_size_m", boardSize_m, "side of a reflecting board around it; 0: none", core::atLeast(0))
+        .addDegrees("board_yaw_deg", yaw_rad, "the way the board faces")
         .load(ini, section);
-    points.push_back(p);
+    scene.controlPoints.push_back(p);
+    if (boardSize_m > 0) scene.objects.push_back(makeBoard(p, boardSize_m, yaw_rad, retro));
   }
-  return points;
 }
 
 std::vector<Experiment> loadExperiments(IniFile& ini) {
@@ -115,12 +130,14 @@ Scene loadScene(IniFile& ini) {
       .load(ini, "scene");
   scene.seabed = loadSeabed(ini, mixBits(static_cast<std::uint64_t>(seed)));
   scene.materials = loadMaterials(ini);
-  scene.controlPoints = loadControlPoints(ini);
   scene.experiments = loadExperiments(ini);
   std::uint64_t objectSeed = mixBits(static_cast<std::uint64_t>(seed) + 1000);
   for (const auto& section : ini.sectionsStartingWith("object."))
     scene.objects.push_back(loadObject(ini, section, scene, objectSeed = mixBits(objectSeed)));
   if (scene.objects.empty()) throw ConfigError("the scene has no objects", ini.name(), "add sections [object.NAME]");
+  loadControlPoints(ini, scene);
+  for (const auto& section : ini.sectionsStartingWith("vessel_part."))
+    scene.vesselParts.push_back(loadObject(ini, section, scene, objectSeed = mixBits(objectSeed)));
   return scene;
 }
 

@@ -68,7 +68,7 @@ SurveySimulator::SurveySimulator(const Scene& scene, int experiment, const Simul
 SimulationSummary SurveySimulator::run(const std::function<void(const CObservation::Ptr&)>& sink,
                                        const std::function<void(double)>& progress) const {
   const SimulationOptions& o = options_;
-  const RayCaster caster(scene_);
+  const RayCaster caster(scene_.objects);
   const LidarModel lidar(o.lidar, o.lidar.T_vehicle_sensor * o.mountingErrors.lidar, scene_, caster,
                          mixBits(o.seed + 11));
   const SonarModel horizontal(o.sonarHorizontal, o.sonarHorizontal.T_vehicle_sensor * o.mountingErrors.sonarHorizontal,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "s2s/obs/CObservationLidarSweep.h"
+#include "s2s/sim/lidar_effects.h"
 #include "s2s/sim/random.h"
 #include "s2s/sim/ray_caster.h"
 #include "s2s/sim/vessel_motion.h"
@@ -17,11 +18,7 @@ struct LidarOptions {
   double verticalFov_rad = 45 * M_PI / 180;
   double minRange_m = 0.5, maxRange_m = 120;
 
-  // Effects
-  bool noise = true;
-  double rangeSigma_m = 0.012;             ///< at normal incidence on a bright surface
-  double rangeSigmaFar_mPerM = 1.0e-4;     ///< grows with range
-  double dropoutReflectivityRange_m = 200; ///< a white surface is lost with a probability of one half at this range
+  LidarEffects effects;
 };
 
 /// Casts each column from the vessel's pose at the column's own time. Safe to use from many threads.
@@ -37,10 +34,11 @@ class LidarModel {
                                          std::uint32_t number) const;
 
  private:
-  void castColumn(const core::Isometry& T_world_sensor, const obs::CObservationLidarSweep& sweep, std::size_t column,
-                  std::vector<Ray>& rays) const;
-  void record(const std::vector<Ray>& rays, const std::vector<RayHit>& hits, std::size_t column, Random& random,
-              obs::CObservationLidarSweep& sweep) const;
+  struct Column;
+  void findOwnVessel();
+  void makeRays(const core::Isometry& T_world_sensor, std::size_t column, Column& work) const;
+  void findEchoes(std::size_t column, Random& random, Column& work) const;
+  void addWater(Random& random, Column& work) const;
 
   LidarOptions options_;
   core::Isometry T_vehicle_sensor_;
@@ -48,6 +46,7 @@ class LidarModel {
   const RayCaster& caster_;
   std::uint64_t seed_;
   obs::CObservationLidarSweep prototype_;  // tables that all sweeps share
+  std::vector<LidarEcho> ownVessel_;       // per pixel, nearest part of the vessel itself
 };
 
 /// "64x1024@10": rows, columns, sweeps a second.

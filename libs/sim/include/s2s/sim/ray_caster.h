@@ -17,7 +17,7 @@ struct Ray {
 
 struct RayHit {
   static constexpr std::uint32_t kNothing = 0xffffffffu;
-  std::uint32_t object = kNothing;  ///< index in Scene::objects
+  std::uint32_t object = kNothing;  ///< index in the objects given
   float range_m = 0;
   Eigen::Vector3f normal;  ///< unit length, towards the ray's origin
   bool hit() const { return object != kNothing; }
@@ -26,8 +26,8 @@ struct RayHit {
 /// Finds what rays meet in a scene; Embree's bounding volume hierarchy underneath. Safe to use from many threads.
 class RayCaster {
  public:
-  /// Copies the scene's triangles.
-  explicit RayCaster(const Scene& scene);
+  /// Copies the objects' triangles.
+  explicit RayCaster(const std::vector<SceneObject>& objects);
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;

@@ -49,6 +49,7 @@ struct Scene {
   SeabedField seabed;
   std::vector<Material> materials;
   std::vector<SceneObject> objects;
+  std::vector<SceneObject> vesselParts;  ///< of the surveying vessel, in its own frame
   std::vector<ControlPoint> controlPoints;
   std::vector<Experiment> experiments;
 
