@@ -95,6 +95,12 @@ void RawlogWriter::write(const mrpt::obs::CObservation::Ptr& observation) {
   const TimeNs time = core::fromMrptTime(observation->timestamp);
   if (observation->sensorLabel.empty())
     throw core::InputError("an observation has no sensor label", core::formatUtc(time), "give the sensor a label");
+  if (!state_->options.sorted) {
+    constexpr TimeNs kAtOnce = std::numeric_limits<TimeNs>::min();
+    state_->held.emplace(kAtOnce, observation);
+    state_->flushUntil(kAtOnce);
+    return;
+  }
   if (time < state_->written)
     throw core::InputError("an observation comes " + core::formatDuration(core::secondsBetween(time, state_->written)) +
                                " too late to be sorted in",

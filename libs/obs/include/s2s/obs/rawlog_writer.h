@@ -13,6 +13,8 @@ struct RawlogWriterOptions {
   int gzLevel = 0;
   /// Observations may come out of order by up to this; they are held back and sorted.
   double reorderWindow_s = 1.0;
+  /// False: records are written as they come, as a recorder does whose clock jumps.
+  bool sorted = true;
 };
 
 /// Writes an observation-only rawlog sorted by time. The file appears under its name when `close` succeeds.
