@@ -2,12 +2,16 @@
 
 #include <tbb/global_control.h>
 
+#include <chrono>
+#include <filesystem>
 #include <iomanip>
 #include <ostream>
+#include <thread>
 
 #include "s2s/core/atomic_file.h"
 #include "s2s/core/error.h"
 #include "s2s/core/progress.h"
+#include "s2s/obs/rawlog_writer.h"
 #include "s2s/sim/options_table.h"
 #include "s2s/sim/scene_loader.h"
 #include "s2s/sim/truth_writer.h"
@@ -62,8 +66,8 @@ void SimulateCommand::addOptions(CLI::App& app) {
   app.add_flag("--list-options", listOptions_, "print all settings with their values in this scene, and end");
   app.footer(
       "The scene's INI describes the world (objects, materials, seabed), the experiments (waypoints, speed) and\n"
-      "the simulation: vessel, waves, lidar, imu, sonar.horizontal, sonar.vertical, gnss, mounting. Every physical\n"
-      "effect has a key and can be switched off alone; --list-options shows all, share/docs/simulation.md\n"
+      "the simulation: vessel, waves, lidar, imu, sonar.horizontal, sonar.vertical, gnss, mounting, faults. Every\n"
+      "physical effect has a key and can be switched off alone; --list-options shows all, share/docs/simulation.md\n"
       "explains each with its equation.\n\n"
       "Example: simulate-survey --scene share/scenes/canal.ini --experiment 1 --output out/sim --duration 90");
 }
@@ -72,6 +76,33 @@ void SimulateCommand::applyCommandLine(sim::SimulationOptions& options) const {
   options.seed = seed_;
   options.duration_s = duration_s_;
   if (!lidar_.empty()) sim::parseLidarMode(lidar_, options.lidar);
+}
+
+sim::SimulationSummary SimulateCommand::record(const sim::SurveySimulator& simulator,
+                                               const sim::SimulationOptions& options, std::ostream& log) const {
+  obs::RawlogWriterOptions writerOptions;
+  writerOptions.gzLevel = gzLevel_;
+  writerOptions.sorted = !options.faults.clockJumps();
+  const std::string rawlog = output_ + "/survey.rawlog";
+  obs::RawlogWriter writer(rawlog, writerOptions);
+  sim::PingTruthWriter horizontal(output_ + "/truth/returns_" + options.sonarHorizontal.label + ".bin");
+  sim::PingTruthWriter vertical(output_ + "/truth/returns_" + options.sonarVertical.label + ".bin");
+  core::Progress progress(&log, "simulating", simulator.duration_s(), "s");
+  sim::SimulationSinks sinks;
+  sinks.record = [&](const auto& observation) { writer.write(observation); };
+  sinks.returnsHorizontal = [&](const sim::PingTruth& truth) { horizontal.write(truth); };
+  sinks.returnsVertical = [&](const sim::PingTruth& truth) { vertical.write(truth); };
+  sinks.progress = [&](double t_s) { progress.update(t_s); };
+  const sim::SimulationSummary summary = simulator.run(sinks);
+  writer.close();
+  horizontal.close();
+  vertical.close();
+  progress.finish();
+  if (options.faults.cutBytes > 0) {
+    const auto size = std::filesystem::file_size(rawlog);
+    std::filesystem::resize_file(rawlog, size - std::min<std::uintmax_t>(size, options.faults.cutBytes));
+  }
+  return summary;
 }
 
 int SimulateCommand::run(std::ostream& out, std::ostream& log) {
@@ -97,15 +128,8 @@ int SimulateCommand::run(std::ostream& out, std::ostream& log) {
   sim::writeSurveyIni(output_ + "/survey.ini", scene, options);
   core::writeTextFile(output_ + "/simulation.ini", sim::printSimulationOptions(options));
 
-  obs::RawlogWriterOptions writerOptions;
-  writerOptions.gzLevel = gzLevel_;
-  obs::RawlogWriter writer(output_ + "/survey.rawlog", writerOptions);
-  core::Progress progress(&log, "simulating", simulator.duration_s(), "s");
   const auto start = std::chrono::steady_clock::now();
-  const sim::SimulationSummary summary =
-      simulator.run([&](const auto& record) { writer.write(record); }, [&](double t_s) { progress.update(t_s); });
-  writer.close();
-  progress.finish();
+  const sim::SimulationSummary summary = record(simulator, options, log);
   printSummary(out, summary, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   return 0;
 }

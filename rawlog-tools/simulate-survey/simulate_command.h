@@ -20,6 +20,8 @@ class SimulateCommand {
 
  private:
   void applyCommandLine(sim::SimulationOptions& options) const;
+  sim::SimulationSummary record(const sim::SurveySimulator& simulator, const sim::SimulationOptions& options,
+                                std::ostream& log) const;
 
   std::string scenePath_, output_, lidar_;
   std::vector<std::string> settings_;

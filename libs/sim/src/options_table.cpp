@@ -109,8 +109,11 @@ void addSonarDevice(OptionTable& t, SonarOptions& o) {
 
 void addSonarPhysics(OptionTable& t, SonarOptions& o) {
   t.addChoice("elevation_pattern", o.elevationPattern,
-              {{"rectangle", ElevationPattern::Rectangle}, {"sinc", ElevationPattern::Sinc}},
+              {{"rectangle", ElevationPattern::Rectangle},
+               {"sinc", ElevationPattern::Sinc},
+               {"shaped", ElevationPattern::Shaped}},
               "sensitivity across the imaging plane")
+      .add("elevation_side_lobe_db", o.elevationSideLobe_db, "one way, of the shaped pattern", {-80, 0})
       .add("beam_pattern", o.beamPattern, "beams of finite width with side lobes")
       .addDegrees("beam_width_deg", o.beamWidth_rad, "-3 dB width at the fan's centre", positive())
       .add("taper", o.taper, "shading of the array: 1 none, 0.54 Hamming", {0.5, 1})
@@ -120,6 +123,13 @@ void addSonarPhysics(OptionTable& t, SonarOptions& o) {
       .add("spreading", o.spreading, "spherical spreading")
       .add("absorption", o.absorption, "absorption by the water")
       .add("absorption_db_per_m", o.absorption_dbPerM, "one way", atLeast(0))
+      .add("texture", o.texture, "patches that scatter more or less than their material")
+      .add("texture_db", o.texture_db, "standard deviation of the texture", atLeast(0))
+      .add("texture_length_m", o.textureLength_m, "largest wavelength of the texture", positive())
+      .add("volume", o.volume, "backscatter of the water")
+      .add("volume_backscatter_db", o.volumeBackscatter_db, "per cubic metre")
+      .add("multipath", o.multipath, "echoes by way of the water surface")
+      .add("surface_loss_db", o.surfaceLoss_db, "a bounce", atLeast(0))
       .add("noise", o.noise, "noise floor")
       .add("noise_level_db", o.noiseLevel_db, "of a pixel, re 1 uPa")
       .add("speckle", o.speckle, "interference of unresolved scatterers")
@@ -134,12 +144,34 @@ void addSonarPhysics(OptionTable& t, SonarOptions& o) {
            {1300, 1700});
 }
 
+void addSonarArtefacts(OptionTable& t, SonarArtefacts& a) {
+  t.add("row_leak", a.rowLeak, "a share of a row's power on all its beams")
+      .add("row_leak_db", a.rowLeak_db, "of the row's mean")
+      .add("ring_down", a.ringDown, "the transducer's ringing")
+      .add("ring_down_db", a.ringDown_db, "at range 0, over the noise")
+      .add("ring_down_decay_db_per_m", a.ringDownDecay_dbPerM, "its decay", positive())
+      .add("banding", a.banding, "gain steps between groups of rows")
+      .add("band_rows", a.bandRows, "rows in a group", {1, 100000})
+      .add("band_sigma_db", a.bandSigma_db, "size of the steps", atLeast(0))
+      .add("streaks", a.streaks, "noise over groups of beams in single rows")
+      .add("streaks_per_ping", a.streaksPerPing, "mean number", atLeast(0))
+      .add("streak_beams", a.streakBeams, "mean width", positive())
+      .add("streak_db", a.streak_db, "over the noise")
+      .add("centre_haze", a.centreHaze, "noise over the central beams")
+      .add("centre_haze_db", a.centreHaze_db, "over the noise")
+      .addDegrees("centre_width_deg", a.centreWidth_rad, "standard deviation of the haze's bell", positive())
+      .add("cross_talk", a.crossTalk, "transmissions of the other sonar")
+      .add("cross_talk_share", a.crossTalkShare, "of the pings in which one falls", {0, 1})
+      .add("cross_talk_db", a.crossTalk_db, "over the noise");
+}
+
 }  // namespace
 
 OptionTable optionTable(SonarOptions& o) {
   OptionTable t;
   addSonarDevice(t, o);
   addSonarPhysics(t, o);
+  addSonarArtefacts(t, o.artefacts);
   return t;
 }
 
@@ -166,6 +198,27 @@ OptionTable optionTable(MountingErrors& e) {
   return t;
 }
 
+OptionTable optionTable(SensorFaults& f) {
+  OptionTable t;
+  t.add("time_offset_s", f.timeOffset_s, "recorded minus true time")
+      .add("jitter_s", f.jitter_s, "standard deviation of the recorded times", atLeast(0))
+      .add("drop_share", f.dropShare, "share of records lost at random", {0, 1})
+      .add("silent_from_s", f.silentFrom_s, "the sensor is silent from here", atLeast(0))
+      .add("silent_for_s", f.silentFor_s, "for so long", atLeast(0));
+  return t;
+}
+
+OptionTable optionTable(FaultOptions& f) {
+  OptionTable t;
+  t.add("clock_jump_at_s", f.clockJumpAt_s, "the recording clock jumps here", atLeast(0))
+      .add("clock_jump_s", f.clockJump_s, "by this; 0: it does not")
+      .add("cut_bytes", f.cutBytes, "bytes missing at the end of the rawlog", {0, 1e9})
+      .add("spoof_from_s", f.spoofFrom_s, "the GNSS drifts away from here", atLeast(0))
+      .add("spoof_drift_mps", f.spoofDrift_mps, "speed of the drift; 0: none", atLeast(0))
+      .addDegrees("spoof_direction_deg", f.spoofDirection_rad, "direction of the drift in the world");
+  return t;
+}
+
 namespace {
 
 /// Calls `visit(section, options)` for each section of a simulation.
@@ -179,6 +232,12 @@ void forEachSection(SimulationOptions& o, const Visit& visit) {
   visit("sonar.vertical", o.sonarVertical);
   visit("gnss", o.gnss);
   visit("mounting", o.mountingErrors);
+  visit("faults", o.faults);
+  visit("faults.lidar", o.faults.lidar);
+  visit("faults.imu", o.faults.imu);
+  visit("faults.sonar_horizontal", o.faults.sonarHorizontal);
+  visit("faults.sonar_vertical", o.faults.sonarVertical);
+  visit("faults.gnss", o.faults.gnss);
 }
 
 }  // namespace

@@ -21,6 +21,9 @@ SonarOptions verticalSonarDefaults() {
   o.absorption_dbPerM = 1.6;
   o.tvgAbsorption_dbPerM = 2.4;
   o.noiseLevel_db = 72;
+  o.artefacts.banding = false;
+  o.artefacts.streaks = false;
+  o.artefacts.centreHaze = true;
   o.pulseLength_m = 0.02;
   return o;
 }
@@ -40,6 +43,15 @@ Vector3d SonarGeometry::direction(double b, double e) const {
   if (options_.bearingModel == obs::BearingModel::Azimuth)
     return {std::cos(e) * std::cos(b), std::cos(e) * std::sin(b), std::sin(e)};
   return {std::cos(b) * std::cos(e), std::sin(b), std::cos(b) * std::sin(e)};
+}
+
+double SonarGeometry::trueBearing_rad(double b) const {
+  // Delays over the array are sin(bearing) / c: what is formed with one sound speed looks elsewhere at another.
+  return std::asin(std::clamp(std::sin(b) * options_.soundSpeed_mps / options_.soundSpeedAssumed_mps, -1.0, 1.0));
+}
+
+double SonarGeometry::formedBearing_rad(double b) const {
+  return std::asin(std::clamp(std::sin(b) * options_.soundSpeedAssumed_mps / options_.soundSpeed_mps, -1.0, 1.0));
 }
 
 Eigen::Vector2d SonarGeometry::bearingElevation(const Vector3d& d) const {

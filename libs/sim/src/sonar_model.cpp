@@ -9,16 +9,22 @@ SonarModel::SonarModel(const SonarOptions& options, const core::Isometry& T_vehi
       geometry_(options_),
       tracer_(options_, geometry_, scene, caster),
       beamFormer_(options_, geometry_),
+      artefacts_(options_, geometry_, seed),
       receiver_(options_),
       seed_(seed) {}
 
-obs::CObservationImagingSonar::Ptr SonarModel::ping(const VesselMotion& motion, double t_s, core::TimeNs time,
-                                                    std::uint32_t number) const {
+SonarModel::PingPtr SonarModel::ping(const VesselMotion& motion, double t_s, core::TimeNs time, std::uint32_t number,
+                                     PingTruth* truth) const {
   Random random(seed_, 1, number);
   EchoImage echo;
-  tracer_.trace(motion.pose(t_s) * T_vehicle_sensor_, random, echo);
+  tracer_.trace(motion.pose(t_s) * T_vehicle_sensor_, random, echo, truth ? &truth->returns : nullptr);
   std::vector<float> power;
   beamFormer_.form(echo, random.bits(), power);
+  artefacts_.apply(power, t_s, random);
+  if (truth) {
+    truth->time = time;
+    truth->pingId = number + 1;
+  }
 
   auto ping = obs::CObservationImagingSonar::Create();
   ping->timestamp = core::toMrptTime(time);

@@ -73,16 +73,44 @@ void writeObjects(const std::string& path, const Scene& scene) {
 }
 
 void writeExtrinsics(const std::string& path, const SimulationOptions& o) {
-  std::string text = "// True mountings T_vehicle_sensor: x y z [m] yaw pitch roll [deg]\n";
-  const auto add = [&text](const std::string& label, const Isometry& T) {
-    text += "\n[" + label + "]\npose = " + core::printPose(T) + "\n";
+  std::string text =
+      "// True mountings T_vehicle_sensor: x y z [m] yaw pitch roll [deg], and how far recorded times are late [s]\n";
+  const auto add = [&text](const std::string& label, const Isometry& T, const SensorFaults& faults) {
+    text += "\n[" + label + "]\npose = " + core::printPose(T) +
+            "\ntime_offset_s = " + core::printDouble(faults.timeOffset_s) + "\n";
   };
-  add(o.lidar.label, o.lidar.T_vehicle_sensor * o.mountingErrors.lidar);
-  add(o.imu.label, o.imu.T_vehicle_imu);
-  add(o.sonarHorizontal.label, o.sonarHorizontal.T_vehicle_sensor * o.mountingErrors.sonarHorizontal);
-  add(o.sonarVertical.label, o.sonarVertical.T_vehicle_sensor * o.mountingErrors.sonarVertical);
-  add(o.gnss.label, o.gnss.T_vehicle_antenna);
+  add(o.lidar.label, o.lidar.T_vehicle_sensor * o.mountingErrors.lidar, o.faults.lidar);
+  add(o.imu.label, o.imu.T_vehicle_imu, o.faults.imu);
+  add(o.sonarHorizontal.label, o.sonarHorizontal.T_vehicle_sensor * o.mountingErrors.sonarHorizontal,
+      o.faults.sonarHorizontal);
+  add(o.sonarVertical.label, o.sonarVertical.T_vehicle_sensor * o.mountingErrors.sonarVertical, o.faults.sonarVertical);
+  add(o.gnss.label, o.gnss.T_vehicle_antenna, o.faults.gnss);
   core::writeTextFile(path, text);
+}
+
+/// Heights of the bare seabed under the survey as an ESRI ASCII grid, which GDAL and every GIS reads.
+void writeSeabedGrid(const std::string& path, const Scene& scene, const VesselMotion& motion, double duration_s) {
+  constexpr double kCell_m = 0.25, kMargin_m = 12;
+  Eigen::AlignedBox2d box;
+  for (double t = 0; t <= duration_s; t += 0.5) box.extend(Eigen::Vector2d(motion.pose(t).translation().head<2>()));
+  const Eigen::Vector2d min = ((box.min().array() - kMargin_m) / kCell_m).floor() * kCell_m;
+  const Eigen::Vector2d max = ((box.max().array() + kMargin_m) / kCell_m).ceil() * kCell_m;
+  const auto columns = static_cast<int>(std::lround((max.x() - min.x()) / kCell_m));
+  const auto rows = static_cast<int>(std::lround((max.y() - min.y()) / kCell_m));
+  AtomicFile file(path);
+  std::ofstream& out = file.stream();
+  out << "ncols " << columns << "\nnrows " << rows << "\nxllcorner " << min.x() << "\nyllcorner " << min.y()
+      << "\ncellsize " << kCell_m << "\nNODATA_value -9999\n";
+  for (int row = rows - 1; row >= 0; --row) {  // the format starts in the north
+    for (int column = 0; column < columns; ++column) {
+      char text[32];
+      std::snprintf(text, sizeof text, "%.3f ",
+                    scene.seabed.height_m(min.x() + (column + 0.5) * kCell_m, min.y() + (row + 0.5) * kCell_m));
+      out << text;
+    }
+    out << '\n';
+  }
+  file.commit();
 }
 
 void writeControlPoints(const std::string& path, const Scene& scene, std::uint64_t seed) {
@@ -105,6 +133,7 @@ void writeTruth(const std::string& folder, const Scene& scene, const SimulationO
   writeTrajectory(folder + "/trajectory.tum", o, motion, duration_s);
   writeMesh(folder + "/world.ply", scene);
   writeObjects(folder + "/objects.csv", scene);
+  writeSeabedGrid(folder + "/seabed.asc", scene, motion, duration_s);
   writeExtrinsics(folder + "/extrinsics.ini", o);
   writeControlPoints(folder + "/control_points.csv", scene, o.seed);
 }

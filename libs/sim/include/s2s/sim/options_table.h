@@ -14,8 +14,12 @@ core::OptionTable optionTable(ImuOptions& options);
 core::OptionTable optionTable(SonarOptions& options);
 core::OptionTable optionTable(GnssOptions& options);
 core::OptionTable optionTable(MountingErrors& errors);
+core::OptionTable optionTable(SensorFaults& faults);
+/// The faults that are not one sensor's own.
+core::OptionTable optionTable(FaultOptions& faults);
 
-/// Reads the sections `vessel`, `waves`, `lidar`, `imu`, `sonar.horizontal`, `sonar.vertical`, `gnss` and `mounting`.
+/// Reads the sections `vessel`, `waves`, `lidar`, `imu`, `sonar.horizontal`, `sonar.vertical`, `gnss`, `mounting`,
+/// `faults` and `faults.<sensor>`.
 /// @throws core::ConfigError
 void loadSimulationOptions(core::IniFile& ini, SimulationOptions& options);
 

@@ -24,6 +24,10 @@ class SonarGeometry {
   Eigen::Vector3d direction(double bearing_rad, double elevation_rad) const;
   /// Inverse of `direction`: bearing and elevation of a unit vector.
   Eigen::Vector2d bearingElevation(const Eigen::Vector3d& direction) const;
+  /// Where a beam that the device believes at `bearing_rad` really looks, and the reverse: a beam former with a wrong
+  /// sound speed turns its beams, sin(true) / c_true = sin(believed) / c_believed.
+  double trueBearing_rad(double believed_rad) const;
+  double formedBearing_rad(double true_rad) const;
   /// Position on the fan in beams (0: the first beam's centre); out of [-0.5, n - 0.5) means outside the fan.
   double beamPosition(double bearing_rad) const;
 

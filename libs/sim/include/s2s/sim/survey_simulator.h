@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "s2s/obs/rawlog_writer.h"
+#include "s2s/sim/faults.h"
 #include "s2s/sim/gnss_model.h"
 #include "s2s/sim/imu_model.h"
 #include "s2s/sim/lidar_model.h"
@@ -31,12 +31,20 @@ struct SimulationOptions {
   SonarOptions sonarHorizontal, sonarVertical = verticalSonarDefaults();
   GnssOptions gnss;
   MountingErrors mountingErrors;
+  FaultOptions faults;
 };
 
 /// What was simulated.
 struct SimulationSummary {
   double duration_s = 0, length_m = 0;
   std::uint64_t sweeps = 0, pingsHorizontal = 0, pingsVertical = 0, imuSamples = 0, fixes = 0;
+};
+
+/// Who gets what is simulated, always called from the thread that called `run`. Empty functions are left out.
+struct SimulationSinks {
+  std::function<void(const mrpt::obs::CObservation::Ptr&)> record;
+  std::function<void(const PingTruth&)> returnsHorizontal, returnsVertical;
+  std::function<void(double t_s)> progress;
 };
 
 /// Runs one experiment in a scene through all sensor models, in time order and with bounded memory.
@@ -52,14 +60,20 @@ class SurveySimulator {
   const VesselMotion& motion() const { return motion_; }
   double duration_s() const { return duration_s_; }
 
-  /// Gives every record to `sink`, sorted within a slice of one second, and tells the time reached to `progress`.
-  SimulationSummary run(const std::function<void(const mrpt::obs::CObservation::Ptr&)>& sink,
-                        const std::function<void(double)>& progress) const;
+  /// Gives every record to `sinks.record`, sorted by recorded time within a slice of one second.
+  SimulationSummary run(const SimulationSinks& sinks) const;
 
  private:
+  struct Models;
+  struct Sensor;
+  struct Record;
+  std::vector<Sensor> sensors(Models& models, const SimulationSinks& sinks, SimulationSummary& summary) const;
+  std::vector<Record> simulateSlice(const std::vector<Sensor>& sensors, double from_s, double to_s) const;
+
   const Scene& scene_;
   SimulationOptions options_;
   VesselMotion motion_;
+  FaultInjector faults_;
   double duration_s_;
 };
 
