@@ -113,6 +113,22 @@ void InertialFilter::setPosePosterior(const core::Isometry& T_odom_imu, const co
   covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();
 }
 
+double InertialFilter::measureHeave(const core::Isometry& T_imu_vehicle, double heave_m, double sigma_m) {
+  const Vector3d up = -state_.gravity.normalized();
+  const Vector3d lever = T_imu_vehicle.translation();
+  ErrorVector h = ErrorVector::Zero();
+  h.segment<3>(kPosition) = up;
+  h.segment<3>(kRotation) = lever.cross(state_.R_odom_imu.transpose() * up);
+  h[kFloating] = -1;
+  const double height = up.dot(state_.position + state_.R_odom_imu * lever) - state_.floatingHeight;
+  const ErrorVector Ph = covariance_ * h;
+  const double innovationVariance = h.dot(Ph) + sigma_m * sigma_m;
+  const double innovation = heave_m - height;
+  state_ = moved(state_, Ph * (innovation / innovationVariance));
+  covariance_ -= Ph * Ph.transpose() / innovationVariance;
+  return innovation / std::sqrt(innovationVariance);
+}
+
 void InertialFilter::measurePose(const core::Isometry& T_odom_imu, const core::Matrix6& noise) {
   const core::Matrix6 prior = poseCovariance();
   const core::Matrix6 gain = (prior + noise).ldlt().solve(prior).transpose();

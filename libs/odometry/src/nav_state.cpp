@@ -10,6 +10,7 @@ NavState moved(const NavState& state, const ErrorVector& error) {
   out.gyroBias += error.segment<3>(kGyroBias);
   out.accelBias += error.segment<3>(kAccelBias);
   out.gravity += error.segment<3>(kGravity);
+  out.floatingHeight += error[kFloating];
   return out;
 }
 
@@ -21,6 +22,7 @@ ErrorVector errorBetween(const NavState& from, const NavState& to) {
   error.segment<3>(kGyroBias) = to.gyroBias - from.gyroBias;
   error.segment<3>(kAccelBias) = to.accelBias - from.accelBias;
   error.segment<3>(kGravity) = to.gravity - from.gravity;
+  error[kFloating] = to.floatingHeight - from.floatingHeight;
   return error;
 }
 

@@ -69,7 +69,13 @@ void addRegistration(OptionTable& table, RegistrationOptions& o) {
 }
 
 void addWater(OptionTable& table, WaterOptions& o) {
-  table.add("water_rejection", o.rejectBelow, "leave out returns below the water (needs an IMU)")
+  table.add("heave_prior", o.heavePrior, "the vessel floats, so its height stays near the waterline (needs an IMU)")
+      .add("heave_sigma_m", o.heaveSigma_m, "standard deviation of the vessel's height about the waterline", positive())
+      .add("heave_time_s", o.heaveTime_s, "over which one heave resembles the next", positive())
+      .add("level_walk_m_rts", o.levelWalk_m_rts, "random walk of the water's level (tide)", atLeast(0))
+      .add("level_give_up_sigma", o.giveUpSigma,
+           "if the height stays this many standard deviations off, the water has moved (a lock)", positive())
+      .add("water_rejection", o.rejectBelow, "leave out returns below the water (needs an IMU)")
       .add("water_height_m", o.height_m, "height of the water in the vehicle's frame at rest")
       .add("water_margin_m", o.margin_m, "returns this little above the water are left out, too", atLeast(0));
 }

@@ -17,6 +17,10 @@ constexpr double kRedeskew_m = 0.01;
 /// Overlap of scans that deskewing allows for.
 constexpr double kRecent_s = 1.0;
 
+/// Heaves over which the misfit of the floating height is averaged, and the level's uncertainty when it is given up.
+constexpr double kMisfitHeaves = 5.0;
+constexpr double kLostLevel_m = 1.0;
+
 /// Ad(T) for (translation, rotation): T exp(d) = exp(Ad(T) d) T.
 Matrix6 adjoint(const Isometry& T) {
   Matrix6 A = Matrix6::Zero();
@@ -61,6 +65,9 @@ OdometryResult ScanTracker::track(const Scan& scan, const ImuBuffer& imu) {
   std::vector<NavState> path{filter_.state()};
   filter_.propagate(steps, &path);
 
+  if (filter_.hasImu() && options_.water.heavePrior && !map_.empty())
+    useHeavePrior(core::secondsBetween(path.front().time, path.back().time));
+
   Points points = thin(scan);
   deskew(scan, correctedPath(path, filter_.state().T_odom_imu()), points);
   rejectBelowWater(points, result);
@@ -97,6 +104,21 @@ OdometryResult ScanTracker::track(const Scan& scan, const ImuBuffer& imu) {
   const Vector3d rate = steps.empty() ? Vector3d(Vector3d::Zero()) : steps.back().angularRate_radps;
   describe(points, rate, result);
   return result;
+}
+
+void ScanTracker::useHeavePrior(double sinceLast_s) {
+  const WaterOptions& water = options_.water;
+  filter_.loosenFloatingHeight(water.levelWalk_m_rts * water.levelWalk_m_rts * sinceLast_s);
+  // One heave lasts over several scans, which together must not count for more than one measurement.
+  const double share = std::min(1.0, sinceLast_s / (2 * water.heaveTime_s));
+  const double misfit = filter_.measureHeave(T_imu_vehicle_, 0.0, water.heaveSigma_m / std::sqrt(share));
+  // Off for long by more than the heaves explain: the water itself has moved, so its level is unknown again.
+  const double limit = water.giveUpSigma * std::sqrt(share);
+  heaveMisfit_ += (misfit - heaveMisfit_) * share / kMisfitHeaves;
+  if (std::abs(heaveMisfit_) > limit) {
+    filter_.loosenFloatingHeight(kLostLevel_m * kLostLevel_m);
+    heaveMisfit_ = 0;
+  }
 }
 
 ScanTracker::Points ScanTracker::thin(const Scan& scan) const {

@@ -36,6 +36,7 @@ class ScanTracker {
     std::vector<std::uint32_t> registered;  // indices into the above
   };
 
+  void useHeavePrior(double sinceLast_s);
   Points thin(const Scan& scan) const;
   void deskew(const Scan& scan, const core::Trajectory& path, Points& points) const;
   void rejectBelowWater(Points& points, OdometryResult& result) const;
@@ -58,6 +59,7 @@ class ScanTracker {
   core::Isometry T_odom_vehicle_last_ = core::Isometry::Identity();
   Eigen::Vector3d mapCentre_ = Eigen::Vector3d::Zero();
   bool bridgedImu_ = false;
+  double heaveMisfit_ = 0;  // running mean of the normalised heave
 };
 
 }  // namespace s2s::odometry

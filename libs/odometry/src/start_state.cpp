@@ -100,6 +100,7 @@ StartState inertialStart(const ImuBuffer& imu, core::TimeNs startTime, core::Tim
     setSigma(start, kGyroBias, options.imu.gyroBiasSigma_radps);
     setSigma(start, kVelocity, options.motion.initialSpeedSigma_mps);
   }
+  start.covariance(kFloating, kFloating) = options.water.heaveSigma_m * options.water.heaveSigma_m;
   setGravity(start, options.imu.gravity_mps2, start.isStatic ? kTiltAccelStill_mps2 : kTiltAccelMoving_mps2);
   return start;
 }

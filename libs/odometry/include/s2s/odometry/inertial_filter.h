@@ -43,6 +43,13 @@ class InertialFilter {
   /// filter's own pose as prior; the rest of the state follows.
   void setPosePosterior(const core::Isometry& T_odom_imu, const core::Matrix6& covariance);
 
+  /// Takes a measurement of how high the vehicle's origin is above its floating height, against gravity.
+  /// @return the innovation over its expected standard deviation
+  double measureHeave(const core::Isometry& T_imu_vehicle, double heave_m, double sigma_m);
+
+  /// Adds to the floating height's variance.
+  void loosenFloatingHeight(double variance_m2) { covariance_(kFloating, kFloating) += variance_m2; }
+
   /// Takes a pose measured by something independent of the filter.
   void measurePose(const core::Isometry& T_odom_imu, const core::Matrix6& noise);
 

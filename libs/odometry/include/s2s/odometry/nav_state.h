@@ -16,6 +16,7 @@ struct NavState {
   Eigen::Vector3d gyroBias = Eigen::Vector3d::Zero();   ///< [rad/s], in imu
   Eigen::Vector3d accelBias = Eigen::Vector3d::Zero();  ///< [m/s^2], in imu
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();    ///< [m/s^2], in odom; points down
+  double floatingHeight = 0;  ///< [m] height in odom at which the vehicle's origin floats on calm water
 
   core::Isometry T_odom_imu() const {
     core::Isometry T = core::Isometry::Identity();
@@ -25,9 +26,10 @@ struct NavState {
   }
 };
 
-/// Error of a state: position, velocity, biases and gravity add; the rotation vector multiplies from the right.
-constexpr int kErrorSize = 18;
-constexpr int kPosition = 0, kRotation = 3, kVelocity = 6, kGyroBias = 9, kAccelBias = 12, kGravity = 15;
+/// Error of a state: all parts add, but the rotation vector multiplies from the right.
+constexpr int kErrorSize = 19;
+constexpr int kPosition = 0, kRotation = 3, kVelocity = 6, kGyroBias = 9, kAccelBias = 12, kGravity = 15,
+              kFloating = 18;
 using ErrorVector = Eigen::Matrix<double, kErrorSize, 1>;
 using ErrorMatrix = Eigen::Matrix<double, kErrorSize, kErrorSize>;
 

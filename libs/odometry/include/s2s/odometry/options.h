@@ -66,9 +66,16 @@ struct RegistrationOptions {
 
 /// Knowledge that the vehicle floats. Only used with an IMU, which tells where down is.
 struct WaterOptions {
-  bool rejectBelow = false;  ///< leave out returns below the surface
-  double height_m = 0.0;     ///< height of the surface in the vehicle's frame, at rest
-  double margin_m = 0.3;     ///< returns this little above the surface are left out, too
+  /// Soft knowledge that the vehicle stays near one height, which may itself change slowly. Between vertical quays
+  /// nothing that a LiDAR sees tells the height, and an accelerometer alone loses it within seconds.
+  bool heavePrior = true;
+  double heaveSigma_m = 0.1;        ///< standard deviation of the vehicle's origin about that height
+  double heaveTime_s = 1.0;         ///< over which one heave is correlated with the next
+  double levelWalk_m_rts = 2.0e-3;  ///< random walk of that height: tide, load
+  double giveUpSigma = 3.0;         ///< if the height stays this far off, the water is taken to have moved (a lock)
+  bool rejectBelow = false;         ///< leave out returns below the surface
+  double height_m = 0.0;            ///< height of the surface in the vehicle's frame, at rest
+  double margin_m = 0.3;            ///< returns this little above the surface are left out, too
 };
 
 /// Use of the IMU.
