@@ -8,14 +8,13 @@ namespace {
 
 constexpr std::size_t kChunk = 1u << 20;
 
-/// True if the header of another message stands within the payload.
-bool containsHeader(std::string_view message) {
-  for (std::size_t at = message.find("SO", MessageHeader::kBytes); at != std::string_view::npos;
-       at = message.find("SO", at + 1)) {
-    const auto header = parseHeader(message.substr(at));
+/// True if the header of another message begins within the payload of the one at the beginning of `bytes`.
+bool containsHeader(std::string_view bytes, const MessageHeader& own) {
+  for (std::size_t at = bytes.find("SO", MessageHeader::kBytes); at < own.messageBytes();
+       at = bytes.find("SO", at + 1)) {
+    const auto header = parseHeader(bytes.substr(at));
     // Echo strengths can spell a header by chance, but hardly one between the same two devices.
-    const auto own = parseHeader(message);
-    if (header && header->source == own->source && header->destination == own->destination) return true;
+    if (header && header->source == own.source && header->destination == own.destination) return true;
   }
   return false;
 }
@@ -51,14 +50,14 @@ std::optional<MessageStream::Message> MessageStream::next() {
       continue;
     }
     const bool whole = ensure(header->messageBytes());
-    const auto bytes = rest().substr(0, header->messageBytes());
-    if (!whole || containsHeader(bytes)) {
+    ensure(header->messageBytes() + MessageHeader::kBytes - 1);  // a header may begin within and end behind it
+    if (!whole || containsHeader(rest(), *header)) {
       ++cutMessages_;
       passOver();
       continue;
     }
-    const Message message{*header, bytes, bytesRead()};
-    position_ += bytes.size();
+    const Message message{*header, rest().substr(0, header->messageBytes()), bytesRead()};
+    position_ += header->messageBytes();
     return message;
   }
   while (!rest().empty()) passOver();

@@ -156,14 +156,23 @@ void SweepBuilder::fillMissingTimes(const std::vector<std::uint8_t>& valid) {
   const auto shifted = [period_ns](std::int64_t time_ns, std::size_t columns) {
     return time_ns + static_cast<std::int64_t>(std::llround(period_ns * static_cast<double>(columns)));
   };
-  const auto first = static_cast<std::size_t>(std::find(valid.begin(), valid.end(), 1) - valid.begin());
+  const auto firstAfter = [&valid](std::size_t column) {
+    return static_cast<std::size_t>(std::find(valid.begin() + static_cast<std::ptrdiff_t>(column), valid.end(), 1) -
+                                    valid.begin());
+  };
+  const std::size_t first = firstAfter(0);
   for (std::size_t column = 0; column < first; ++column)
     columnTime_ns_[column] = 2 * columnTime_ns_[first] - shifted(columnTime_ns_[first], first - column);
-  for (std::size_t last = first, column = first + 1; column < columnCount_; ++column) {
-    if (valid[column] != 0)
-      last = column;
-    else
-      columnTime_ns_[column] = shifted(columnTime_ns_[last], column - last);
+  for (std::size_t before = first; before < columnCount_;) {
+    const std::size_t after = firstAfter(before + 1);
+    for (std::size_t column = before + 1; column < after; ++column)
+      if (after < columnCount_)
+        columnTime_ns_[column] = columnTime_ns_[before] + (columnTime_ns_[after] - columnTime_ns_[before]) *
+                                                              static_cast<std::int64_t>(column - before) /
+                                                              static_cast<std::int64_t>(after - before);
+      else
+        columnTime_ns_[column] = shifted(columnTime_ns_[before], column - before);
+    before = after;
   }
 }
 

@@ -40,7 +40,7 @@ class SweepBuilder {
   void begin(std::uint32_t frameId);
   void addColumn(const std::uint8_t* packet, std::uint32_t packetColumn);
   void readPixels(const std::uint8_t* packet, std::uint32_t packetColumn, std::uint32_t column);
-  /// Gives the columns that were not received a time too: their neighbour's and the rate of turn.
+  /// Gives the columns that were not received a time too: between their neighbours', or by the rate of turn at an end.
   void fillMissingTimes(const std::vector<std::uint8_t>& valid);
 
   const Metadata& metadata_;

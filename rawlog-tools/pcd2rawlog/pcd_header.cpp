@@ -31,6 +31,12 @@ std::size_t toCount(const std::string& word, const std::string& key, const std::
   return value;
 }
 
+bool isKnown(const std::string& key) {
+  for (const char* known : {"SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT", "POINTS", "DATA"})
+    if (key == known) return true;
+  return false;
+}
+
 PcdEncoding toEncoding(const std::string& word, const std::string& path) {
   if (word == "ascii") return PcdEncoding::Ascii;
   if (word == "binary") return PcdEncoding::Binary;
@@ -53,6 +59,7 @@ class HeaderParser {
       for (const auto& name : values) header_.fields.push_back({name});
       return false;
     }
+    if (!isKnown(key)) refuse("the header line '" + key + "' is unknown", path_);
     if (values.empty()) refuse("the header line " + key + " is empty", path_);
     if (key == "SIZE" || key == "TYPE" || key == "COUNT") {
       takePerField(key, values);
@@ -67,8 +74,6 @@ class HeaderParser {
     } else if (key == "DATA") {
       header_.encoding = toEncoding(values[0], path_);
       return true;
-    } else {
-      refuse("the header line '" + key + "' is unknown", path_);
     }
     return false;
   }
