@@ -125,10 +125,10 @@ void CSeabedSkyMap::gatherEvidence(const StoredScan& scan) {
     const ScanPoint point = unpack(packed);
     const Eigen::Vector3d p_map = T_map_vehicle * point.p_vehicle.cast<double>();
     if (scan.pose.layer == Layer::Stereo)
-      resolver_.addSonarEvidence(p_map, point.sigma_m);
+      resolver_.addStereoPoint(p_map, point.sigma_m);
     else if (point.p_vehicle.z() >= 0 && point.p_vehicle.z() <= options_.resolver.lidarWallBand_m &&
              point.p_vehicle.head<2>().squaredNorm() <= reach2)
-      resolver_.addWallEvidence(p_map);
+      resolver_.addWallPoint(p_map);
   }
 }
 
@@ -136,17 +136,21 @@ void CSeabedSkyMap::resolve(StoredLineScan& scan) {
   if (options_.insertion.lineElevation != LineElevation::Resolved) return LineScanResolver::setZero(scan);
   const core::Isometry T_map_vehicle = mapPose(scan.pose);
   resolver_.resolve(scan, T_map_vehicle);
-  if (scan.pose.layer == Layer::LineVertical) resolver_.addProfile(scan, T_map_vehicle);
+  resolver_.addLineScan(scan, T_map_vehicle);
 }
 
 void CSeabedSkyMap::resolveLineScans() {
   resolver_.reset(options_.resolver);
   for (const StoredScan& scan : scans_) gatherEvidence(scan);
-  // The vertical sonar first: its profiles are evidence for the horizontal one wherever in time they come.
+  // The vertical sonar first: its profiles are evidence for the horizontal one wherever in time they come. Then the
+  // vertical one again, now that all swaths of the other are known.
   for (StoredLineScan& scan : lineScans_)
     if (scan.pose.layer == Layer::LineVertical) resolve(scan);
   for (StoredLineScan& scan : lineScans_)
     if (scan.pose.layer != Layer::LineVertical) resolve(scan);
+  if (options_.insertion.lineElevation == LineElevation::Resolved)
+    for (StoredLineScan& scan : lineScans_)
+      if (scan.pose.layer == Layer::LineVertical) resolver_.resolve(scan, mapPose(scan.pose));
   touch();
 }
 

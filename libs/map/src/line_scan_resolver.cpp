@@ -12,6 +12,9 @@ namespace s2s::map {
 
 namespace {
 
+/// How well the heights of neighbouring places are known against each other; better than against the map.
+constexpr double kReliefSigma_m = 0.02;
+
 /// A place on an arc, decided.
 struct Decision {
   double elevation_rad = 0;
@@ -43,19 +46,24 @@ std::optional<std::size_t> leastGap(const std::vector<Gap>& gaps) {
 
 /// Where the surface touches the arc, `least` being the place with the least gap.
 ///
-/// Inside the aperture the arc is tangent to the surface, and the middle of the places that fit as well is steadier
-/// than the least one. At the aperture's edge it is the edge itself.
+/// Inside the aperture the arc is tangent to the surface, and the mean of the places that fit as well is steadier than
+/// the least one. At the aperture's edge it is the edge itself.
 Decision contact(const Arc& arc, const std::vector<Gap>& gaps, std::size_t least) {
   const double limit = gaps[least].distance_m + gaps[least].sigma_m;
   std::size_t first = least, last = least;
   while (first > 0 && gaps[first - 1].known && gaps[first - 1].distance_m <= limit) --first;
   while (last + 1 < gaps.size() && gaps[last + 1].known && gaps[last + 1].distance_m <= limit) ++last;
   const bool atEdge = (first == 0) != (last + 1 == gaps.size());
-  const double width = arc.elevation_rad[last] - arc.elevation_rad[first];
+  double weights = 0, sum_rad = 0;
+  for (std::size_t i = first; i <= last; ++i) {
+    const double excess = (gaps[i].distance_m - gaps[least].distance_m) / kReliefSigma_m;
+    const double weight = std::exp(-0.5 * excess * excess);
+    weights += weight;
+    sum_rad += weight * arc.elevation_rad[i];
+  }
   Decision decision;
-  decision.elevation_rad =
-      atEdge ? arc.elevation_rad[least] : 0.5 * (arc.elevation_rad[first] + arc.elevation_rad[last]);
-  decision.halfSpread_rad = width / std::sqrt(12.0);
+  decision.elevation_rad = atEdge ? arc.elevation_rad[least] : sum_rad / weights;
+  decision.halfSpread_rad = (arc.elevation_rad[last] - arc.elevation_rad[first]) / std::sqrt(12.0);
   decision.misfit = std::abs(gaps[least].distance_m) / gaps[least].sigma_m;
   return decision;
 }
@@ -122,9 +130,13 @@ void apply(const Decision& decision, double bearingSigma_rad, PackedReturn& r) {
 /// Decides the returns of one ping; keeps the buffers between them.
 class PingResolver {
  public:
-  PingResolver(const SurfaceEvidence& evidence, const ResolverOptions& options, const StoredLineScan& scan,
-               const core::Isometry& T_map_vehicle)
-      : evidence_(evidence), options_(options), scan_(scan), T_map_sonar_(T_map_vehicle * scan.T_vehicle_sonar) {
+  PingResolver(const SurfaceEvidence& seabed, const SurfaceEvidence& walls, const ResolverOptions& options,
+               const StoredLineScan& scan, const core::Isometry& T_map_vehicle)
+      : seabed_(seabed),
+        walls_(walls),
+        options_(options),
+        scan_(scan),
+        T_map_sonar_(T_map_vehicle * scan.T_vehicle_sonar) {
     const auto steps = static_cast<std::size_t>(std::max(3, options.arcSteps));
     arc_.elevation_rad.resize(steps);
     arc_.p_map.resize(steps);
@@ -156,7 +168,7 @@ class PingResolver {
   std::optional<Decision> meetSeabed(double rangeSigma_m) {
     for (std::size_t i = 0; i < arc_.p_map.size(); ++i) {
       const Eigen::Vector3d& p = arc_.p_map[i];
-      const auto seabed = evidence_.seabedAt(p.x(), p.y());
+      const auto seabed = seabed_.seabedAt(p.x(), p.y());
       seabedGaps_[i].known = seabed.has_value();
       if (!seabed) continue;
       seabedGaps_[i].distance_m = p.z() - seabed->height_m;
@@ -176,7 +188,7 @@ class PingResolver {
   }
 
   std::optional<Decision> meetWall(double rangeSigma_m) {
-    if (evidence_.wallCount() == 0) return std::nullopt;
+    if (walls_.wallCount() == 0) return std::nullopt;
     for (std::size_t i = 0; i < arc_.p_map.size(); ++i) wallGaps_[i] = wallGap(arc_.p_map[i], rangeSigma_m);
     const auto least = leastGap(wallGaps_);
     if (!least) return std::nullopt;
@@ -188,7 +200,7 @@ class PingResolver {
   }
 
   Gap wallGap(const Eigen::Vector3d& p, double rangeSigma_m) const {
-    const auto wall = evidence_.wallNear(p.x(), p.y());
+    const auto wall = walls_.wallNear(p.x(), p.y());
     Gap gap;
     // Walls go on below what was seen of them, not above.
     if (!wall || p.z() > wall->top_m + options_.wallCell_m) return gap;
@@ -199,7 +211,8 @@ class PingResolver {
     return gap;
   }
 
-  const SurfaceEvidence& evidence_;
+  const SurfaceEvidence& seabed_;
+  const SurfaceEvidence& walls_;
   const ResolverOptions& options_;
   const StoredLineScan& scan_;
   const core::Isometry T_map_sonar_;
@@ -211,21 +224,33 @@ class PingResolver {
 
 void LineScanResolver::reset(const ResolverOptions& options) {
   options_ = options;
-  evidence_.reset(options);
+  walls_.reset(options);
+  profiles_.reset(options);
+  swaths_.reset(options);
 }
 
-void LineScanResolver::addProfile(const StoredLineScan& scan, const core::Isometry& T_map_vehicle) {
+void LineScanResolver::addStereoPoint(const Eigen::Vector3d& p_map, double sigma_m) {
+  profiles_.addSeabedPoint(p_map, sigma_m);
+  swaths_.addSeabedPoint(p_map, sigma_m);
+  walls_.addWallPoint(p_map);
+}
+
+void LineScanResolver::addLineScan(const StoredLineScan& scan, const core::Isometry& T_map_vehicle) {
   const core::Isometry T_map_sonar = T_map_vehicle * scan.T_vehicle_sonar;
+  const bool isVertical = scan.pose.layer == Layer::LineVertical;
   for (const PackedReturn& r : scan.returns) {
+    const Eigen::Vector3d p_map = T_map_sonar * pointOf(r, scan.bearingModel);
     // A surface touches the arc tangentially, so that a wrong elevation moves the point along the surface: only range
     // and bearing count for the surface's height.
     const double sigma_m = std::hypot(fromHalf(r.rangeSigmaHalf), r.range_m * scan.bearingSigma_rad);
-    addSonarEvidence(T_map_sonar * pointOf(r, scan.bearingModel), sigma_m);
+    if (isVertical) walls_.addWallPoint(p_map);
+    if (r.source != ElevationSource::Wall) (isVertical ? profiles_ : swaths_).addSeabedPoint(p_map, sigma_m);
   }
 }
 
 void LineScanResolver::resolve(StoredLineScan& scan, const core::Isometry& T_map_vehicle) const {
-  PingResolver ping(evidence_, options_, scan, T_map_vehicle);
+  const SurfaceEvidence& seabed = scan.pose.layer == Layer::LineVertical ? swaths_ : profiles_;
+  PingResolver ping(seabed, walls_, options_, scan, T_map_vehicle);
   for (PackedReturn& r : scan.returns) apply(ping.decide(r), scan.bearingSigma_rad, r);
 }
 

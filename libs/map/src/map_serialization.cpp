@@ -191,8 +191,7 @@ void CSeabedSkyMap::rebuildDerived() {
   }
   for (const StoredLineScan& scan : lineScans_) {
     counts_[static_cast<std::size_t>(scan.pose.layer)] += scan.returns.size();
-    if (scan.pose.layer == Layer::LineVertical && options_.insertion.lineElevation == LineElevation::Resolved)
-      resolver_.addProfile(scan, mapPose(scan.pose));
+    if (options_.insertion.lineElevation == LineElevation::Resolved) resolver_.addLineScan(scan, mapPose(scan.pose));
   }
   touch();
 }

@@ -56,7 +56,7 @@ void SurfaceEvidence::reset(const ResolverOptions& options) {
   wallCount_ = 0;
 }
 
-void SurfaceEvidence::addSonarPoint(const Eigen::Vector3d& p_map, double sigma_m) {
+void SurfaceEvidence::addSeabedPoint(const Eigen::Vector3d& p_map, double sigma_m) {
   Column& column = seabed_.at(seabed_.index(p_map.x()), seabed_.index(p_map.y()));
   const int bin = static_cast<int>(std::floor(p_map.z() / options_.cell_m));
   Slab& slab = entryOf(column.slabs, bin);
@@ -68,7 +68,6 @@ void SurfaceEvidence::addSonarPoint(const Eigen::Vector3d& p_map, double sigma_m
   slab.weightedZ += weight * dz;
   slab.weightedZZ += weight * dz * dz;
   updateSeabed(column);
-  addWallPoint(p_map);
 }
 
 /// The seabed of a column is its lowest slab with enough points, and the one above it, which holds the other half of a

@@ -27,23 +27,23 @@ class LineScanResolver {
   void reset(const ResolverOptions& options);
   const ResolverOptions& options() const { return options_; }
 
-  /// Points on seabed and walls with their standard deviations, in the map's frame (stereo, vertical profile).
-  void addSonarEvidence(const Eigen::Vector3d& p_map, double sigma_m) { evidence_.addSonarPoint(p_map, sigma_m); }
-  /// LiDAR points just above the water: walls only.
-  void addWallEvidence(const Eigen::Vector3d& p_map) { evidence_.addWallPoint(p_map); }
-  /// A resolved ping of the vertical sonar: its returns as a profile of the seabed below and the walls ahead.
-  void addProfile(const StoredLineScan& scan, const core::Isometry& T_map_vehicle);
+  /// A stereo point: seabed and walls.
+  void addStereoPoint(const Eigen::Vector3d& p_map, double sigma_m);
+  /// A LiDAR point just above the water: walls only.
+  void addWallPoint(const Eigen::Vector3d& p_map) { walls_.addWallPoint(p_map); }
+  /// A resolved ping. What one sonar saw is evidence for the other, never for itself: it would only agree with itself.
+  void addLineScan(const StoredLineScan& scan, const core::Isometry& T_map_vehicle);
 
   /// Sets elevation, source and sigma of each return. Without evidence each gets the lowest point of its arc.
   void resolve(StoredLineScan& scan, const core::Isometry& T_map_vehicle) const;
   /// Sets all elevations to zero with the sigma of the whole aperture (the paper).
   static void setZero(StoredLineScan& scan);
 
-  const SurfaceEvidence& evidence() const { return evidence_; }
-
  private:
   ResolverOptions options_;
-  SurfaceEvidence evidence_;
+  SurfaceEvidence walls_;
+  SurfaceEvidence profiles_;  // seabed by stereo and the vertical sonar, for the horizontal one
+  SurfaceEvidence swaths_;    // seabed by stereo and the horizontal sonar, for the vertical one
 };
 
 }  // namespace s2s::map

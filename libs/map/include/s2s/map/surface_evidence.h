@@ -28,8 +28,8 @@ class SurfaceEvidence {
 
   void reset(const ResolverOptions& options);
 
-  /// A sonar point: evidence of seabed and of walls.
-  void addSonarPoint(const Eigen::Vector3d& p_map, double sigma_m);
+  /// Evidence of the seabed only.
+  void addSeabedPoint(const Eigen::Vector3d& p_map, double sigma_m);
   /// Evidence of walls only.
   void addWallPoint(const Eigen::Vector3d& p_map);
 
