@@ -5,6 +5,7 @@
 #include <set>
 
 #include "s2s/core/error.h"
+#include "s2s/map/CSeabedSkyMap.h"
 #include "s2s/products/grid_files.h"
 #include "s2s/products/options_table.h"
 #include "s2s/products/ply_reader.h"
@@ -26,6 +27,14 @@ RunSummary sampleSummary(const SampleMap& map) {
   return summary;
 }
 
+/// As the defaults, with small pictures to save time.
+ProductsOptions quickOptions() {
+  ProductsOptions options;
+  options.pictures.width_px = 400;
+  options.pictures.height_px = 300;
+  return options;
+}
+
 std::set<std::string> names(const ProductsResult& result) {
   std::set<std::string> out;
   for (const auto& file : result.files) out.insert(file.name);
@@ -35,7 +44,7 @@ std::set<std::string> names(const ProductsResult& result) {
 TEST(WriteProducts, Everything_IsThereWithTheStatedNamesAndSizes) {
   const TempFolder folder;
   const SampleMap map;
-  ProductsOptions options;
+  ProductsOptions options = quickOptions();
   options.mapPly = options.simpleMap = options.kitti = true;
   std::vector<std::string> announced;
   const auto result = writeProducts(map.source(), map.trajectories(), sampleSummary(map), options, folder.file("out"),
@@ -54,7 +63,8 @@ TEST(WriteProducts, Everything_IsThereWithTheStatedNamesAndSizes) {
 TEST(WriteProducts, Files_AgreeWithTheMap) {
   const TempFolder folder;
   const SampleMap map;
-  const auto result = writeProducts(map.source(), map.trajectories(), sampleSummary(map), {}, folder.path());
+  const auto result =
+      writeProducts(map.source(), map.trajectories(), sampleSummary(map), quickOptions(), folder.path());
   std::size_t i = 0;
   const auto stereo = readPlyPoints(folder.file("stereo.ply"));
   map.source()(map::Layer::Stereo, [&](const map::MapPoint& p) { EXPECT_EQ(stereo.at(i++).p, p.p_map); });
@@ -78,17 +88,33 @@ TEST(WriteProducts, SameMapTwice_GivesTheSameBytes) {
   const TempFolder folder;
   const SampleMap map;
   for (const char* dir : {"a", "b"})
-    writeProducts(map.source(), map.trajectories(), sampleSummary(map), {}, folder.file(dir));
+    writeProducts(map.source(), map.trajectories(), sampleSummary(map), quickOptions(), folder.file(dir));
   // Not compared: summary.json and the report hold run times; BAG holds the time at which HDF5 made its objects.
   for (const char* name : {"trajectory.tum", "lidar.ply", "line_vertical.ply", "map.las", "seabed.tif"})
     EXPECT_EQ(readBytes(folder.file(std::string("a/") + name)), readBytes(folder.file(std::string("b/") + name)))
         << name;
 }
 
+TEST(WriteProducts, MapAsSource_GivesItsPointsWhereTheKeyframesPutThem) {
+  const TempFolder folder;
+  map::CSeabedSkyMap map;
+  map::Keyframe keyframe;
+  keyframe.T_map_vehicle = core::isometryFromXyzYpr(10, 0, 0, M_PI / 2, 0, 0);
+  map.addKeyframe(keyframe);
+  map::ScanPoint point;
+  point.p_vehicle = {2, 0, 1};
+  map.insertScan(map::Layer::Stereo, 0, core::Isometry::Identity(), {point});
+  writeProducts(map, {}, {}, quickOptions(), folder.path());
+  const auto points = readPlyPoints(folder.file("stereo.ply"));
+  ASSERT_EQ(points.size(), 1U);
+  // The map keeps points as floats.
+  EXPECT_LT((points[0].p - Eigen::Vector3d(10, 2, 1)).norm(), 1e-5);
+}
+
 TEST(WriteProducts, NoPointsAtAll_GivesEmptyLayersAndAWarning) {
   const TempFolder folder;
   const PointSource nothing = [](map::Layer, const PointVisitor&) {};
-  const auto result = writeProducts(nothing, {}, {}, {}, folder.path());
+  const auto result = writeProducts(nothing, {}, {}, quickOptions(), folder.path());
   EXPECT_TRUE(readPlyPoints(folder.file("lidar.ply")).empty());
   EXPECT_EQ(names(result).count("seabed.tif"), 0U);
   EXPECT_THAT(result.summary.warnings, testing::Contains(testing::HasSubstr("no seabed grid")));
@@ -103,7 +129,7 @@ TEST(WriteProducts, BrokenPoints_AreLeftOutAndReported) {
     p.p_map.y() = std::nan("");
     visit(p);
   };
-  const auto result = writeProducts(source, {}, {}, {}, folder.path());
+  const auto result = writeProducts(source, {}, {}, quickOptions(), folder.path());
   EXPECT_EQ(readPlyPoints(folder.file("lidar.ply")).size(), 1U);
   EXPECT_THAT(result.summary.warnings, testing::Contains(testing::HasSubstr("4 map points were not finite")));
 }
@@ -113,7 +139,7 @@ TEST(WriteProducts, UnknownWaterHeight_IsTakenFromThePathAndSaid) {
   const SampleMap map;
   RunSummary summary = sampleSummary(map);
   summary.waterHeight_m.reset();
-  const auto result = writeProducts(map.source(), map.trajectories(), summary, {}, folder.path());
+  const auto result = writeProducts(map.source(), map.trajectories(), summary, quickOptions(), folder.path());
   EXPECT_NEAR(result.summary.waterHeight_m.value(), 0, 0.02);  // the path heaves by 2 cm
   EXPECT_THAT(result.summary.warnings, testing::Contains(testing::HasSubstr("water height")));
 }
@@ -122,8 +148,9 @@ TEST(WriteProducts, FolderIsAFile_IsAnOutputErrorAndLeavesNothing) {
   const TempFolder folder;
   writeBytes(folder.file("taken"), "x");
   const SampleMap map;
-  EXPECT_THROW(writeProducts(map.source(), map.trajectories(), sampleSummary(map), {}, folder.file("taken/out")),
-               core::OutputError);
+  EXPECT_THROW(
+      writeProducts(map.source(), map.trajectories(), sampleSummary(map), quickOptions(), folder.file("taken/out")),
+      core::OutputError);
   EXPECT_EQ(folder.fileCount(), 1U);
 }
 

@@ -107,7 +107,7 @@ struct MapPictures::Implementation {
   ParallelView makeCross() const {
     // Looks along the path's direction, so that "across" grows to the left as the path sees it.
     ParallelView view = plainView(viewAxes(context.frame.along, 0));
-    view.height_px = options.height_px / 2;
+    view.height_px = options.height_px;
     view.fit(corners(context.frame, low_m, high_m, sectionBottom(), sectionTop()), kSectionBorder_px,
              kLargestExaggeration);
     return view;
@@ -179,7 +179,7 @@ void MapPictures::Implementation::drawLegend(cv::Mat& image, const ParallelView&
 }
 
 cv::Mat MapPictures::Implementation::withLegend(const SplatRenderer& renderer) const {
-  cv::Mat image(options.height_px, options.width_px, CV_8UC3, toBgr(kPaper));
+  cv::Mat image(renderer.view().height_px + kLegend_px, options.width_px, CV_8UC3, toBgr(kPaper));
   cv::Mat upper = image(cv::Rect(0, 0, options.width_px, renderer.view().height_px));
   renderer.image().copyTo(upper);
   drawPath(upper, renderer.view(), context.path);

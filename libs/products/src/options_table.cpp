@@ -40,7 +40,7 @@ core::OptionTable optionTable(ProductsOptions& options) {
       .add("simplemap_max_points", options.simpleMapMaxPoints, "points in map.simplemap", {1, 1e9});
   addGrid(table, options.grid);
   return table.add("picture_width_px", options.pictures.width_px, "width of the pictures", {320, 8192})
-      .add("picture_height_px", options.pictures.height_px, "height of the pictures", {240, 8192})
+      .add("picture_height_px", options.pictures.height_px, "largest height of the pictures", {240, 8192})
       .add("picture_margin_m", options.pictures.margin_m, "how far around the path the pictures reach", {0, 10'000})
       .add("section_thickness_m", options.pictures.sectionThickness_m, "thickness of the section pictures' slabs",
            {0.05, 100});

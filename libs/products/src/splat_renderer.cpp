@@ -31,6 +31,7 @@ void ParallelView::fit(const std::vector<Eigen::Vector3d>& corners, int border_p
   const double scaleX = (width_px - 2 * border_px) / size.x(), scaleY = (height_px - 2 * border_px) / size.y();
   pxPerMetreX = std::min(scaleX, scaleY);
   pxPerMetreY = std::clamp(scaleY, pxPerMetreX, pxPerMetreX * stretchY);
+  height_px = std::min(height_px, static_cast<int>(std::ceil(size.y() * pxPerMetreY)) + 2 * border_px);
   centre_m = axes.transpose() * (0.5 * (low + high));
 }
 

@@ -24,6 +24,7 @@ struct ParallelView {
 
   /// Chooses centre and scale such that all `corners` are seen with `border_px` around them. With `stretchY` above 1
   /// the vertical scale may be larger than the horizontal, up to that factor.
+  /// `height_px` is the room there is; what is not needed of it is given up.
   void fit(const std::vector<Eigen::Vector3d>& corners, int border_px, double stretchY = 1);
 };
 

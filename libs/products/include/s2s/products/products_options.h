@@ -7,8 +7,8 @@ namespace s2s::products {
 /// Pictures of the map.
 struct PictureOptions {
   int width_px = 1600;
-  int height_px = 1000;
-  double margin_m = 15;           ///< how far around the path the pictures reach
+  int height_px = 1000;           ///< at most; wide and low surveys take less
+  double margin_m = 25;           ///< how far around the path the pictures reach
   double sectionThickness_m = 2;  ///< of the slabs that the section pictures show
 };
 
@@ -24,7 +24,7 @@ struct ProductsOptions {
   bool kitti = false;              ///< the trajectory in KITTI form too
   bool picture = true;             ///< `map.png`
   bool report = true;              ///< `report.html`
-  int sceneMaxPoints = 5'000'000;  ///< more make MRPT's viewer slow; the rest is left out evenly
+  int sceneMaxPoints = 3'000'000;  ///< more make MRPT's viewer slow; the rest is left out evenly
   int simpleMapMaxPoints = 5'000'000;
   SeabedGridOptions grid;
   PictureOptions pictures;
