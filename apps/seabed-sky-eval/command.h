@@ -31,5 +31,7 @@ class Command {
 std::unique_ptr<Command> makeTruthCommand(CLI::App& app);
 std::unique_ptr<Command> makeControlCommand(CLI::App& app);
 std::unique_ptr<Command> makeWallCommand(CLI::App& app);
+std::unique_ptr<Command> makePickCommand(CLI::App& app);
+std::unique_ptr<Command> makeQualityCommand(CLI::App& app);
 
 }  // namespace s2s::apps

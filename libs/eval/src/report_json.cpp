@@ -138,4 +138,39 @@ Json toJson(const WallReport& report) {
           {"T_wall_map", transform(report.T_wall_map)}};
 }
 
+Json toJson(const QualityReport& report) {
+  Json json = {{"layers", Json::object()}, {"seabed", nullptr}, {"notes", report.notes}};
+  for (const auto& [layer, crispness] : report.crispness)
+    json["layers"][map::layerName(layer)] = {
+        {"points", report.points.at(layer)},
+        {"places", crispness.evaluated},
+        {"mean_map_entropy", crispness.evaluated > 0 ? Json(crispness.meanEntropy) : Json(nullptr)},
+        {"plane_sigma_m", toJson(crispness.planeSigma_m)}};
+  if (!report.seabed) return json;
+  const GridQuality& grid = *report.seabed;
+  json["seabed"] = {{"cells", grid.cells},
+                    {"area_m2", grid.area_m2},
+                    {"soundings_per_cell", toJson(grid.soundings)},
+                    {"sigma_m", toJson(grid.sigma_m)},
+                    {"holidays", grid.holidays},
+                    {"passes",
+                     {{"cells", grid.passes.cells},
+                      {"differences", grid.passes.differences},
+                      {"mean_m", grid.passes.mean_m},
+                      {"std_m", grid.passes.std_m},
+                      {"p95_m", grid.passes.p95_m}}}};
+  return json;
+}
+
+Json toJson(const std::vector<TargetPick>& picks) {
+  Json json = Json::array();
+  for (const auto& pick : picks)
+    json.push_back({{"id", pick.id},
+                    {"found", pick.found},
+                    {"points", pick.points},
+                    {"position_m", numbers(pick.position)},
+                    {"spread_m", pick.spread_m}});
+  return json;
+}
+
 }  // namespace s2s::eval

@@ -133,4 +133,45 @@ std::string toText(const WallReport& report) {
          " m onto the LiDAR points.\n" + clouds.print() + '\n' + metrics.print();
 }
 
+std::string toText(const QualityReport& report) {
+  TextTable layers({"layer", "points", "places", "mean map entropy [nat]", "plane sigma median [m]", "95 % [m]"});
+  for (const auto& [layer, c] : report.crispness) {
+    std::vector<std::string> row = {map::layerName(layer), std::to_string(report.points.at(layer)),
+                                    std::to_string(c.evaluated)};
+    if (c.evaluated > 0)
+      row.insert(row.end(), {fixed(c.meanEntropy, 3), fixed(c.planeSigma_m.median, 4), fixed(c.planeSigma_m.p95, 4)});
+    layers.addRow(std::move(row));
+  }
+  std::string text = layers.print();
+  if (report.seabed) {
+    const GridQuality& g = *report.seabed;
+    TextTable grid(
+        {"seabed grid", "area [m2]", "soundings/cell median", "sigma median [m]", "sigma 95 % [m]", "holidays"});
+    grid.addRow({std::to_string(g.cells) + " cells", fixed(g.area_m2, 1), fixed(g.soundings.median, 0),
+                 fixed(g.sigma_m.median, 3), fixed(g.sigma_m.p95, 3), std::to_string(g.holidays)});
+    TextTable passes({"between passes", "cells", "differences", "mean [m]", "std [m]", "95 % [m]"});
+    const PassDifference& p = g.passes;
+    if (p.differences > 0)
+      passes.addRow({"later - earlier", std::to_string(p.cells), std::to_string(p.differences), fixed(p.mean_m, 4),
+                     fixed(p.std_m, 4), fixed(p.p95_m, 4)});
+    else
+      passes.addRow({"no cell was passed twice"});
+    text += '\n' + grid.print() + '\n' + passes.print();
+  }
+  for (const auto& note : report.notes) text += "note: " + note + '\n';
+  return text;
+}
+
+std::string toText(const std::vector<TargetPick>& picks) {
+  TextTable table({"target", "bright points", "x [m]", "y [m]", "z [m]", "spread [m]"});
+  for (const auto& pick : picks) {
+    if (pick.found)
+      table.addRow({pick.id, std::to_string(pick.points), fixed(pick.position.x(), 4), fixed(pick.position.y(), 4),
+                    fixed(pick.position.z(), 4), fixed(pick.spread_m, 3)});
+    else
+      table.addRow({pick.id, std::to_string(pick.points), "not found"});
+  }
+  return table.print();
+}
+
 }  // namespace s2s::eval
