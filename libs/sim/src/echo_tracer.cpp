@@ -15,7 +15,6 @@ struct EchoTracer::Beam {
   std::vector<RayHit> hits;
   std::vector<double> elevations_rad;
   std::vector<double> solidAngles;  // sr
-  std::vector<double> gains;        // two-way elevation pattern
   std::vector<Vector3f> edges;      // directions of the samples' edges, world frame; one more than rays
   std::vector<double> powers;       // direct echo of each ray
   std::vector<float> column;        // the beam's range bins
@@ -28,7 +27,13 @@ EchoTracer::EchoTracer(const SonarOptions& options, const SonarGeometry& geometr
       scene_(scene),
       caster_(caster),
       multipath_(options, geometry),
-      edges_rad_(elevationEdges(options)) {}
+      noisePower_(std::pow(10, 0.1 * options.noiseLevel_db)),
+      edges_rad_(elevationEdges(options)) {
+  for (std::size_t i = 0; i + 1 < edges_rad_.size(); ++i) {
+    const double pattern = elevationPattern(options, 0.5 * (edges_rad_[i] + edges_rad_[i + 1]));
+    gains_.push_back(pattern * pattern);
+  }
+}
 
 double EchoTracer::recordedBin(double range_m) const {
   const double believed_m = range_m * options_.soundSpeedAssumed_mps / options_.soundSpeed_mps;
@@ -45,7 +50,6 @@ void EchoTracer::makeRays(const core::Isometry& T_world_sensor, std::size_t beam
   work.rays.resize(n);
   work.elevations_rad.resize(n);
   work.solidAngles.resize(n);
-  work.gains.resize(n);
   work.edges.resize(n + 1);
   for (std::size_t i = 0; i <= n; ++i)
     work.edges[i] = (R * geometry_.direction(work.bearing_rad, edges_rad_[i])).cast<float>();
@@ -56,13 +60,11 @@ void EchoTracer::makeRays(const core::Isometry& T_world_sensor, std::size_t beam
     // Solid angle: the azimuth half-planes narrow with cos(elevation), the cones with cos(bearing).
     const double narrowing =
         options_.bearingModel == obs::BearingModel::Azimuth ? std::cos(elevation) : std::cos(work.bearing_rad);
-    const double pattern = elevationPattern(options_, elevation);
     double reach_m = maxRange_m;
     if (d.z() > 1e-6) reach_m = std::min(reach_m, -T_world_sensor.translation().z() / d.z());  // up to the surface
     work.rays[i] = {origin, d.cast<float>(), static_cast<float>(std::max(0.0, reach_m))};
     work.elevations_rad[i] = elevation;
     work.solidAngles[i] = geometry_.cellWidth_rad(beam) * step * narrowing;
-    work.gains[i] = pattern * pattern;
   }
 }
 
@@ -105,6 +107,7 @@ void EchoTracer::deposit(const Beam& work, std::size_t ray, double power, std::v
 
 void EchoTracer::addGhosts(const core::Isometry& T_world_sensor, const Beam& work, std::size_t ray, double power,
                            EchoImage& image) const {
+  if (options_.noise && power < 0.1 * noisePower_) return;  // its ghosts would drown
   GhostEcho ghosts[3];
   const Vector3f p_world = work.rays[ray].origin + work.hits[ray].range_m * work.rays[ray].direction;
   multipath_.find(T_world_sensor, p_world.cast<double>(), {work.bearing_rad, work.elevations_rad[ray]}, ghosts);
@@ -163,7 +166,7 @@ void EchoTracer::trace(const core::Isometry& T_world_sensor, Random& random, Ech
       const double onAxis =
           work.solidAngles[i] * patchPower(hit.range_m, -hit.normal.dot(work.rays[i].direction),
                                            scene_.materials[scene_.objects[hit.object].material], p_world);
-      work.powers[i] = work.gains[i] * onAxis;
+      work.powers[i] = gains_[i] * onAxis;
       deposit(work, i, work.powers[i], work.column);
       if (options_.multipath) addGhosts(T_world_sensor, work, i, onAxis, image);
     }

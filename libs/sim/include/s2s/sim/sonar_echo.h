@@ -56,7 +56,8 @@ class EchoTracer {
   const Scene& scene_;
   const RayCaster& caster_;
   SurfaceMultipath multipath_;
-  std::vector<double> edges_rad_;
+  double noisePower_;
+  std::vector<double> edges_rad_, gains_;  // of the elevation samples; gains are two-way
 };
 
 }  // namespace s2s::sim
