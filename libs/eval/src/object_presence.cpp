@@ -1,6 +1,7 @@
 #include "s2s/eval/object_presence.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "s2s/eval/statistics.h"
@@ -34,16 +35,15 @@ ObjectFinder::ObjectFinder(const TruthFolder& truth, double reach_m) : reach_m_(
     if (surface.triangles.empty()) continue;
     Candidate candidate;
     candidate.found.name = object.name;
+    candidate.found.trueHeight_m = kNaN;  // stays so if no corner has seabed below; fmax passes over what is no number
     candidate.low = candidate.high = surface.vertices.front();
-    Eigen::Vector3d highest = surface.vertices.front();
     for (const auto& v : surface.vertices) {
       candidate.low = candidate.low.cwiseMin(v);
       candidate.high = candidate.high.cwiseMax(v);
-      if (v.z() > highest.z()) highest = v;
+      candidate.found.trueHeight_m = std::fmax(candidate.found.trueHeight_m, heightAboveSeabed(v));
     }
     candidate.low.array() -= reach_m;
     candidate.high.array() += reach_m;
-    candidate.found.trueHeight_m = heightAboveSeabed(highest);
     candidate.surface = std::make_unique<MeshQuery>(std::move(surface));
     candidates_.push_back(std::move(candidate));
   }
@@ -64,7 +64,8 @@ void ObjectFinder::add(map::Layer layer, const Eigen::Vector3d& p_world) {
     ++candidate.found.near[index];
     if (seabed_ && seabed_->nearest(p_world, nearest->distance_m)) continue;
     ++candidate.found.own[index];
-    candidate.heights_m.push_back(heightAboveSeabed(p_world));
+    const double height_m = heightAboveSeabed(p_world);
+    if (std::isfinite(height_m)) candidate.heights_m.push_back(height_m);
   }
 }
 

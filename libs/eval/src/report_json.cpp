@@ -34,10 +34,11 @@ Json toJson(const TrajectoryReport& t) {
                {"rpe", Json::array()},
                {"segments", Json::array()}};
   for (const auto& r : t.relative)
-    json["rpe"].push_back({{"delta", r.delta},
-                           {"unit", r.unit},
-                           {"translation_m", toJson(r.error.translation_m)},
-                           {"rotation_deg", toJson(r.error.rotation_rad, kDegPerRad)}});
+    if (r.error.translation_m.count > 0)
+      json["rpe"].push_back({{"delta", r.delta},
+                             {"unit", r.unit},
+                             {"translation_m", toJson(r.error.translation_m)},
+                             {"rotation_deg", toJson(r.error.rotation_rad, kDegPerRad)}});
   for (const auto& s : t.segments)
     if (s.count > 0)
       json["segments"].push_back({{"length_m", s.length_m},

@@ -1,5 +1,7 @@
 #include "s2s/eval/report_text.h"
 
+#include <cmath>
+
 #include "report_units.h"
 #include "s2s/eval/text_table.h"
 
@@ -8,6 +10,16 @@ namespace s2s::eval {
 namespace {
 
 std::string percent(double share, int decimals = 1) { return fixed(100 * share, decimals); }
+
+void addRelative(const std::string& name, const RelativeErrorOver& r, TextTable& table) {
+  const std::string over = fixed(r.delta, r.delta == std::floor(r.delta) ? 0 : 2) + " " + r.unit;
+  if (r.error.translation_m.count == 0)
+    table.addRow({name, over, "0", "path too short"});
+  else
+    table.addRow({name, over, std::to_string(r.error.translation_m.count), fixed(r.error.translation_m.rmse, 4),
+                  fixed(r.error.translation_m.mean, 4), fixed(kDegPerRad * r.error.rotation_rad.rmse, 4),
+                  fixed(kDegPerRad * r.error.rotation_rad.mean, 4)});
+}
 
 std::string trajectoryText(const std::vector<TrajectoryReport>& trajectories) {
   TextTable absolute({"trajectory", "poses", "pairs", "path [m]", "ATE rmse [m]", "mean [m]", "median [m]", "max [m]",
@@ -21,11 +33,7 @@ std::string trajectoryText(const std::vector<TrajectoryReport>& trajectories) {
     absolute.addRow({t.name, std::to_string(t.poses), std::to_string(t.pairs), fixed(t.path_m, 1), fixed(e.rmse, 4),
                      fixed(e.mean, 4), fixed(e.median, 4), fixed(e.max, 4),
                      fixed(kDegPerRad * t.absolute.rotation_rad.rmse, 3)});
-    for (const auto& r : t.relative)
-      relative.addRow({t.name, fixed(r.delta, 0) + " " + r.unit, std::to_string(r.error.translation_m.count),
-                       fixed(r.error.translation_m.rmse, 4), fixed(r.error.translation_m.mean, 4),
-                       fixed(kDegPerRad * r.error.rotation_rad.rmse, 4),
-                       fixed(kDegPerRad * r.error.rotation_rad.mean, 4)});
+    for (const auto& r : t.relative) addRelative(t.name, r, relative);
     for (const auto& s : t.segments) {
       if (s.count == 0)
         segments.addRow({t.name, fixed(s.length_m, 0), "0", "path too short"});
