@@ -60,9 +60,15 @@ double rmsError_m(const GraphSlam& slam, const SyntheticSurvey& survey) {
 
 void SyntheticTown::addWall(const Eigen::Vector3d& corner, const Eigen::Vector3d& along, double height_m,
                             FixedRandom& random) {
-  const int count = static_cast<int>(along.norm() * height_m * 12);  // points per square metre
+  const int count = static_cast<int>(along.norm() * height_m * 5);  // points per square metre
   for (int n = 0; n < count; ++n)
     points_map_.push_back(corner + random.uniform(0, 1) * along + Eigen::Vector3d(0, 0, random.uniform(0, height_m)));
+}
+
+void SyntheticTown::addGround(const Eigen::Vector3d& corner, const Eigen::Vector3d& u, const Eigen::Vector3d& v,
+                              FixedRandom& random) {
+  const int count = static_cast<int>(u.norm() * v.norm() * 3);
+  for (int n = 0; n < count; ++n) points_map_.push_back(corner + random.uniform(0, 1) * u + random.uniform(0, 1) * v);
 }
 
 SyntheticTown::SyntheticTown(double length_m, double width_m, unsigned seed) {
@@ -77,6 +83,7 @@ SyntheticTown::SyntheticTown(double length_m, double width_m, unsigned seed) {
     addWall(corner, v, height_m, random);
     addWall(corner + u, v, height_m, random);
     addWall(corner + v, u, height_m, random);
+    addGround(corner - 0.3 * u - 0.3 * v, 1.6 * u, 1.6 * v, random);
   };
   for (const double offset_m : {-16.0, 8.0}) {
     for (double x = -10; x < length_m + 10; x += random.uniform(10, 18)) {

@@ -21,7 +21,7 @@ KeyframeInput keyframeInput(const SyntheticSurvey& survey, std::size_t k);
 /// Root mean square distance between estimate and truth, both from the first keyframe on.
 double rmsError_m(const GraphSlam& slam, const SyntheticSurvey& survey);
 
-/// A town of walls and boxes around the path: what a scanner at a pose sees within `range_m` (no occlusion), with 1 cm
+/// A town of houses on patches of ground around the path: what a scanner at a pose sees within `range_m` (no occlusion), with 1 cm
 /// of noise. The same seed gives the same town.
 class SyntheticTown {
  public:
@@ -30,6 +30,8 @@ class SyntheticTown {
 
  private:
   void addWall(const Eigen::Vector3d& corner, const Eigen::Vector3d& along, double height_m, FixedRandom& random);
+  void addGround(const Eigen::Vector3d& corner, const Eigen::Vector3d& u, const Eigen::Vector3d& v,
+                 FixedRandom& random);
   std::vector<Eigen::Vector3d> points_map_;
 };
 

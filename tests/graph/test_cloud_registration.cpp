@@ -59,12 +59,29 @@ TEST(CloudRegistration, StartTwoMetresOff_StillConverges) {
   }
 }
 
-TEST(CloudRegistration, StraightCanal_IsCalledDegenerate) {
+TEST(CloudRegistration, StraightCanal_LeavesTheWayAlongItUnknown) {
   FixedRandom random(64);
   const RegistrationOptions options;
   const RegistrationTarget target(straightCanal(random), options);
-  const RegistrationResult result = registerCloud(target, straightCanal(random), core::Isometry::Identity(), options);
-  EXPECT_EQ(result.status, RegistrationStatus::degenerate);
+  const core::Isometry T_start = core::isometryFromXyzYpr(0.7, 0.3, 0, 0.02, 0, 0);
+  const RegistrationResult result = registerCloud(target, straightCanal(random), T_start, options);
+  EXPECT_EQ(result.status, RegistrationStatus::converged);
+  EXPECT_GE(result.degenerate, 2);  // along the canal and up
+  EXPECT_GT(std::sqrt(result.covariance(0, 0)), 3);
+  EXPECT_NEAR(result.T_target_source.translation().x(), 0.7, 0.02);  // kept, not invented
+  EXPECT_NEAR(result.T_target_source.translation().y(), 0, 0.01);
+  EXPECT_LT(std::sqrt(result.covariance(1, 1)), 0.05);
+}
+
+TEST(CloudRegistration, SingleWall_IsCalledDegenerate) {
+  FixedRandom random(66);
+  Cloud wall;
+  for (const auto& point : straightCanal(random))
+    if (point.y() > 0) wall.push_back(point);
+  RegistrationOptions options;
+  options.maxDegenerate = 2;
+  const RegistrationTarget target(wall, options);
+  EXPECT_EQ(registerCloud(target, wall, core::Isometry::Identity(), options).status, RegistrationStatus::degenerate);
 }
 
 TEST(CloudRegistration, OtherPlace_IsRefused) {

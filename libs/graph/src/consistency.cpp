@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <numeric>
 
 namespace s2s::graph {
 
@@ -60,8 +59,30 @@ int ConsistencySet::add(const OdometryChain& chain, const LoopClosure& closure) 
   closures_.push_back(closure);
   banned_.push_back(false);
   chosen_.push_back(false);
-  choose();
+  // A larger set than the present one can only contain the new closure.
+  take(grow(number, byAgreement()));
   return number;
+}
+
+/// Closures that are not banned, those that agree with most others first.
+std::vector<int> ConsistencySet::byAgreement() const {
+  std::vector<int> agreements(closures_.size(), 0), order;
+  for (int c = 0; c < static_cast<int>(closures_.size()); ++c) {
+    if (banned_[c]) continue;
+    for (const std::uint64_t word : agrees_[c]) agreements[c] += __builtin_popcountll(word);
+    order.push_back(c);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return agreements[a] > agreements[b]; });
+  return order;
+}
+
+/// Replaces the chosen set if this one is larger.
+void ConsistencySet::take(std::vector<int> clique) {
+  if (clique.size() <= best_.size()) return;
+  best_ = std::move(clique);
+  std::fill(chosen_.begin(), chosen_.end(), false);
+  if (static_cast<int>(best_.size()) < options_.minSupport) return;
+  for (const int c : best_) chosen_[c] = true;
 }
 
 std::vector<int> ConsistencySet::grow(int seed, const std::vector<int>& order) const {
@@ -76,25 +97,11 @@ std::vector<int> ConsistencySet::grow(int seed, const std::vector<int>& order) c
 }
 
 void ConsistencySet::choose() {
-  std::vector<int> degree(closures_.size(), 0), order;
-  for (int c = 0; c < static_cast<int>(closures_.size()); ++c) {
-    if (banned_[c]) continue;
-    for (const std::uint64_t word : agrees_[c]) degree[c] += __builtin_popcountll(word);
-    order.push_back(c);
-  }
-  std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return degree[a] != degree[b] ? degree[a] > degree[b] : a < b; });
-
   constexpr std::size_t kStarts = 50;
-  std::vector<int> best;
-  for (std::size_t s = 0; s < std::min(order.size(), kStarts); ++s) {
-    if (static_cast<std::size_t>(degree[order[s]]) + 1 <= best.size()) break;
-    std::vector<int> clique = grow(order[s], order);
-    if (clique.size() > best.size()) best = std::move(clique);
-  }
+  const std::vector<int> order = byAgreement();
+  best_.clear();
   std::fill(chosen_.begin(), chosen_.end(), false);
-  if (static_cast<int>(best.size()) < options_.minSupport) return;
-  for (const int c : best) chosen_[c] = true;
+  for (std::size_t s = 0; s < std::min(order.size(), kStarts); ++s) take(grow(order[s], order));
 }
 
 }  // namespace s2s::graph

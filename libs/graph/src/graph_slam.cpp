@@ -6,6 +6,7 @@
 #include "closure_verifier.h"
 #include "marginals.h"
 #include "s2s/core/error.h"
+#include "s2s/graph/factors/gnss_factor.h"
 #include "s2s/graph/mrpt_network.h"
 #include "survey_problem.h"
 
@@ -176,6 +177,7 @@ SolveSummary GraphSlam::Impl::solve() {
       for (std::size_t k = 0; k < state_.keyframes.size(); ++k)
         state_.keyframes[k].T_map_vehicle = problem.graph->poseAt(k);
       gnss_ = problem.gnss;
+      if (problem.alignment) gnss_.T_enu_map = alignmentFromBlock(problem.alignment);
       if (problem.waterLevel) waterHeight_m_ = *problem.waterLevel;
     }
     summary.time_s = secondsSince(start);

@@ -43,7 +43,9 @@ core::OptionTable optionTable(RegistrationOptions& o) {
       .add("residual_scale_m", o.residualScale_m, "width of the robust weight", core::positive())
       .add("min_overlap", o.minOverlap, "share of points that must find a partner", {0, 1})
       .add("max_rmse_m", o.maxRmse_m, "largest RMS point-to-plane distance", core::positive())
-      .add("min_constraint", o.minConstraint, "smallest share of normals across the weakest direction", {0, 0.34})
+      .add("degeneracy_ratio", o.degeneracyRatio, "times the information that noisy normals pretend is taken off",
+           core::atLeast(0))
+      .add("max_degenerate", o.maxDegenerate, "directions of six that may stay unknown", {0, 5})
       .add("correlated_points", o.correlatedPoints, "points that count as one measurement", core::atLeast(1))
       .add("floor_translation_m", o.floorTranslation_m, "smallest standard deviation of a closure", core::positive())
       .addDegrees("floor_rotation_deg", o.floorRotation_rad, "smallest standard deviation of its rotation",

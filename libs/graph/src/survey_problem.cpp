@@ -55,19 +55,20 @@ double* addWaterline(const SurveyState& state, const WaterlineOptions& options, 
   return level;
 }
 
-GnssReport addGnss(const SurveyState& state, const GnssOptions& options, GraphProblem& graph) {
+void addGnss(const SurveyState& state, const GnssOptions& options, SurveyProblem& survey) {
+  GraphProblem& graph = *survey.graph;
   const GnssAssessment assessment = assessGnss(state.fixes, state.keyframes, options);
-  if (assessment.report.state != GnssState::trusted || !assessment.report.T_enu_map) return assessment.report;
+  survey.gnss = assessment.report;
+  if (assessment.report.state != GnssState::trusted || !assessment.report.T_enu_map) return;
   const core::Isometry& T = *assessment.report.T_enu_map;
-  double* const alignment = graph.addAlignment(
+  survey.alignment = graph.addAlignment(
       {T.translation().x(), T.translation().y(), T.translation().z(), std::atan2(T.linear()(1, 0), T.linear()(0, 0))});
   for (std::size_t n = 0; n < state.fixes.size(); ++n) {
     if (!assessment.believable[n]) continue;
     const TiedFix& tied = state.fixes[n];
     graph.add(new GnssFactor(tied.fix.p_enu, tied.p_keyframe_antenna, tied.fix.sigma_m.cwiseMax(options.minSigma_m)),
-              new ceres::CauchyLoss(options.lossWidth), {graph.pose(tied.keyframe), alignment});
+              new ceres::CauchyLoss(options.lossWidth), {graph.pose(tied.keyframe), survey.alignment});
   }
-  return assessment.report;
 }
 
 }  // namespace
@@ -88,7 +89,7 @@ SurveyProblem makeSurveyProblem(const SurveyState& state, const GraphSlamOptions
   addAnchor(state, gravityKnown, graph);
   addClosures(state, options.closureLossWidth, graph);
   if (options.waterline.enabled) survey.waterLevel = addWaterline(state, options.waterline, graph);
-  survey.gnss = addGnss(state, options.gnss, graph);
+  addGnss(state, options.gnss, survey);
   return survey;
 }
 

@@ -11,6 +11,7 @@ namespace s2s::graph {
 struct SurveyProblem {
   std::unique_ptr<GraphProblem> graph;
   GnssReport gnss;
+  double* alignment = nullptr;   ///< block of T_enu_map; null unless GNSS is trusted
   double* waterLevel = nullptr;  ///< at the last keyframe; null without waterline prior
 };
 

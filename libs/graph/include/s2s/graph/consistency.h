@@ -26,7 +26,7 @@ double pairChi2(const OdometryChain& chain, const LoopClosure& a, const LoopClos
 
 /// Keeps the closures that agree with each other: pairwise consistency maximisation (Mangelson et al., "Pairwise
 /// Consistent Measurement Set Maximization", ICRA 2018), grown closure by closure. The largest clique is sought
-/// greedily from many starts.
+/// greedily: from the new closure with each one that comes, from many starts after a ban.
 class ConsistencySet {
  public:
   explicit ConsistencySet(const ConsistencyOptions& options) : options_(options) {}
@@ -44,11 +44,14 @@ class ConsistencySet {
  private:
   using Row = std::vector<std::uint64_t>;
   std::vector<int> grow(int seed, const std::vector<int>& order) const;
+  std::vector<int> byAgreement() const;
+  void take(std::vector<int> clique);
 
   ConsistencyOptions options_;
   std::vector<LoopClosure> closures_;
   std::vector<Row> agrees_;
   std::vector<bool> banned_, chosen_;
+  std::vector<int> best_;  ///< the largest set found, chosen or still without support
 };
 
 }  // namespace s2s::graph
