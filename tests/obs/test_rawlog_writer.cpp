@@ -136,3 +136,13 @@ TEST(RawlogWriter, FullDisk_ThrowsOutputErrorAndLeavesNothing) {
   setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_EQ(folder.entryCount(), 0u);
 }
+
+TEST(RawlogWriter, NotSorted_KeepsTheOrderOfArrival) {
+  TempFolder folder;
+  obs::RawlogWriterOptions options;
+  options.sorted = false;
+  obs::RawlogWriter writer(folder.file("a.rawlog"), options);
+  for (const TimeNs ms : {0, 5000, 20}) writer.write(imuAt(ms));
+  writer.close();
+  EXPECT_EQ(timesIn(folder.file("a.rawlog")), (std::vector<TimeNs>{0, 5000, 20}));
+}
