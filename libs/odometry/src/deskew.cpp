@@ -1,6 +1,6 @@
 #include "s2s/odometry/deskew.h"
 
-#include <mrpt/maps/CPointsMap.h>
+#include <mrpt/maps/CPointsMapXYZI.h>
 
 #include "s2s/obs/sweep_projector.h"
 #include "s2s/odometry/point_filter.h"
@@ -139,13 +139,14 @@ DeskewedCloud deskewCloud(const mrpt::obs::CObservationPointCloud& observation, 
       (T_odom_reference->inverse() * *T_odom_vehicle_then * T_vehicle_sensor).cast<float>();
   const PointFilter filter(options.filter, T_vehicle_sensor);
   CloudFiller filler(options, *T_odom_reference, cloud);
+  const auto* withIntensity = dynamic_cast<const mrpt::maps::CPointsMapXYZI*>(&points);
   for (std::size_t i = 0; i < points.size(); ++i) {
     Eigen::Vector3f p_sensor;
     points.getPointFast(i, p_sensor.x(), p_sensor.y(), p_sensor.z());
     const auto verdict = filter.judge(p_sensor);
     count(verdict, cloud);
     if (verdict != PointFilter::Verdict::keep) continue;
-    const float reflectivity = points.hasColorPoints() ? points.getPointWeight(i) : 0.0F;
+    const float reflectivity = withIntensity ? withIntensity->getPointIntensity(i) : 0.0F;
     filler.add(T_reference_sensor * p_sensor, p_sensor.norm(), reflectivity);
   }
   return cloud;

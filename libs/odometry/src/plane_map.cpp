@@ -109,14 +109,16 @@ void PlaneMap::fit(Voxel& voxel, double size_m) const {
   covariance /= voxel.count - 1.0;
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
   solver.computeDirect(covariance);
-  const double thickness2 = std::max(solver.eigenvalues()[0], 1e-6);
+  // The plane itself takes three of the points' degrees of freedom, which matters while they are few.
+  const double thickness2 =
+      std::max(solver.eigenvalues()[0] * (voxel.count - 1.0) / std::max(1.0, voxel.count - 3.0), 1e-6);
   const double extent2 = solver.eigenvalues()[1];
   const double leastExtent_m = kLeastExtent * size_m;
   voxel.isPlane = thickness2 <= options_.maxThickness_m * options_.maxThickness_m &&
                   extent2 >= leastExtent_m * leastExtent_m && thickness2 <= kMostAspect * kMostAspect * extent2;
   voxel.normal = solver.eigenvectors().col(0).cast<float>();
   voxel.offsetVariance = static_cast<float>(thickness2 / voxel.count);
-  voxel.tiltVariance = static_cast<float>(thickness2 / extent2 * (1.0 / voxel.count + kShapeShare));
+  voxel.tiltVariance = static_cast<float>(thickness2 / (voxel.count * extent2));
 }
 
 bool PlaneMap::match(const Eigen::Vector3d& point, PlaneMatch& out) const {
@@ -131,7 +133,7 @@ bool PlaneMap::match(const Eigen::Vector3d& point, PlaneMatch& out) const {
     out.distance_m = out.normal.dot(fromMean);
     const double along2 = fromMean.squaredNorm() - out.distance_m * out.distance_m;
     out.variance_m2 = voxel.offsetVariance + voxel.tiltVariance * along2;
-    out.tiltVariance_rad2 = voxel.tiltVariance;
+    out.tiltVariance_rad2 = voxel.tiltVariance * (1.0 + kShapeShare * voxel.count);
     return true;
   }
   return false;

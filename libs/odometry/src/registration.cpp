@@ -18,11 +18,15 @@ constexpr double kCauchyWidth = 2.385;
 /// Median of |x| of a unit Gaussian.
 constexpr double kMedianOfAbs = 0.6745;
 
+/// The share of the prior in the kernel's width falls by this from one iteration to the next.
+constexpr double kPriorFade = 0.1;
+
 struct Residual {
   Vector6 h;
-  double r = 0;        // [m]
-  double sigma_m = 0;  // expected
-  Vector3d p;          // in the body
+  double r = 0;              // [m]
+  double priorVariance = 0;  // of the residual, from the prior
+  double sigma_m = 0;        // expected
+  Vector3d p;                // in the body
   double tiltVariance = 0;
 };
 
@@ -40,8 +44,9 @@ std::vector<Residual> residualsAt(const BodyPoints& points, const PlaneMap& map,
     residual.h << plane.normal, p.cross(Rt * plane.normal);
     residual.r = plane.distance_m;
     const double variance = points.variance_m2[i] + plane.variance_m2;
-    const double gate2 = variance + residual.h.dot(priorCovariance * residual.h);
-    if (residual.r * residual.r > options.gateSigma * options.gateSigma * gate2) continue;
+    residual.priorVariance = residual.h.dot(priorCovariance * residual.h);
+    const double gate2 = options.gateSigma * options.gateSigma * (variance + residual.priorVariance);
+    if (residual.r * residual.r > gate2) continue;
     residual.sigma_m = std::sqrt(variance);
     residual.p = p;
     residual.tiltVariance = plane.tiltVariance_rad2;
@@ -104,7 +109,7 @@ void moveBy(const Vector6& step, core::Isometry& T) {
 }  // namespace
 
 NormalEquations linearise(const BodyPoints& points, const PlaneMap& map, const core::Isometry& T,
-                          const Matrix6& priorCovariance, const RegistrationOptions& options) {
+                          const Matrix6& priorCovariance, double priorShare, const RegistrationOptions& options) {
   const auto residuals = residualsAt(points, map, T, priorCovariance, options);
   NormalEquations sum;
   sum.matches = residuals.size();
@@ -113,8 +118,9 @@ NormalEquations linearise(const BodyPoints& points, const PlaneMap& map, const c
   PretendedSum pretended;
   for (const auto& residual : residuals) {
     const double sigma = scale * residual.sigma_m;
-    const double u = residual.r / (kCauchyWidth * sigma);
-    const double w = 1.0 / ((1.0 + u * u) * sigma * sigma * options.correlation);
+    const double width2 = kCauchyWidth * kCauchyWidth * (sigma * sigma + priorShare * residual.priorVariance);
+    const double w = 1.0 / ((1.0 + residual.r * residual.r / width2) * sigma * sigma * options.correlation);
+    sum.priorRatio = std::max(sum.priorRatio, residual.priorVariance / (sigma * sigma));
     const Vector6 wh = w * residual.h;
     sum.A.noalias() += wh * residual.h.transpose();
     sum.b += residual.r * wh;
@@ -154,8 +160,9 @@ RegistrationResult registerPoints(const BodyPoints& points, const PlaneMap& map,
   const Matrix6 priorInformation = prior.covariance.ldlt().solve(Matrix6::Identity());
   core::Isometry T = T_start;
   Matrix6 total = Matrix6::Identity();
+  double priorShare = 1.0;
   for (result.iterations = 1; result.iterations <= options.maxIterations; ++result.iterations) {
-    NormalEquations equations = linearise(points, map, T, prior.covariance, options);
+    NormalEquations equations = linearise(points, map, T, prior.covariance, priorShare, options);
     result.matches = equations.matches;
     result.residualScale = equations.residualScale;
     if (equations.matches < static_cast<std::size_t>(options.minMatches)) {
@@ -171,7 +178,10 @@ RegistrationResult registerPoints(const BodyPoints& points, const PlaneMap& map,
     const Vector6 step = -total.ldlt().solve(J.transpose() * priorInformation * e + equations.b);
     moveBy(step, T);
     result.end = RegistrationEnd::iterationLimit;
-    if (step.head<3>().norm() < options.stopTranslation_m && step.tail<3>().norm() < options.stopRotation_rad) {
+    const bool isSharp = priorShare * equations.priorRatio < 1.0;
+    priorShare *= kPriorFade;
+    if (isSharp && step.head<3>().norm() < options.stopTranslation_m &&
+        step.tail<3>().norm() < options.stopRotation_rad) {
       result.end = RegistrationEnd::converged;
       break;
     }

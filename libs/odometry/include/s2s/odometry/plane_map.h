@@ -10,10 +10,11 @@ namespace s2s::odometry {
 
 /// The plane that a point belongs to.
 struct PlaneMatch {
-  Eigen::Vector3d normal;        ///< unit; its sign has no meaning
-  double distance_m = 0;         ///< of the point, along the normal
-  double variance_m2 = 0;        ///< of that distance, from the plane's own uncertainty at the point
-  double tiltVariance_rad2 = 0;  ///< of the normal, about the axis known worst
+  Eigen::Vector3d normal;  ///< unit; its sign has no meaning
+  double distance_m = 0;   ///< of the point, along the normal
+  double variance_m2 = 0;  ///< of that distance, from the plane's own uncertainty at the point
+  /// Of the normal, about the axis known worst; includes a share for the shape of what is no true plane.
+  double tiltVariance_rad2 = 0;
 };
 
 /// Local map of planes in cubic voxels of several sizes.

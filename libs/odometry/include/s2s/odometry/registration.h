@@ -44,13 +44,15 @@ struct NormalEquations {
   double meanLever2_m2 = 0;  ///< mean |p_body|^2
   std::size_t matches = 0;
   double residualScale = 0;
+  double priorRatio = 0;  ///< greatest variance of a residual from the prior over that of its noise
 };
 
 /// Point-to-plane residuals r = n . (T p) - d with their Jacobian h at `T`, weighted by 1 / (point + plane variance)
-/// and a Cauchy kernel whose width is the larger of the expected and the observed (median) size of the residuals.
-/// `prior` only sets the gate around its own pose.
+/// and a Cauchy kernel. Its width is the larger of the expected and the observed (median) size of the residuals, and on
+/// top of that `priorShare` of the variance that the prior leaves to the residual: else the many surfaces that already
+/// fit would make outliers of the few that alone show a large error in some direction.
 NormalEquations linearise(const BodyPoints& points, const PlaneMap& map, const core::Isometry& T,
-                          const core::Matrix6& priorCovariance, const RegistrationOptions& options);
+                          const core::Matrix6& priorCovariance, double priorShare, const RegistrationOptions& options);
 
 /// Takes out of the equations what is not known but pretended by noisy normals, and returns the motions about which
 /// nothing remains.
