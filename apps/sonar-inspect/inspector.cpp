@@ -29,9 +29,9 @@ void drawBoth(const cv::Mat& image, const sonar::PingGeometry& geometry, const D
 std::string describe(const sonar::StereoCounts& n, std::size_t points) {
   std::ostringstream text;
   text << "features " << n.features_h << " + " << n.features_v << ", clusters " << n.clusters_h << " + " << n.clusters_v
-       << " in " << n.clusterPairs << " pairs, candidates " << n.candidates << ", ambiguous " << n.ambiguous
-       << ", matches " << n.matches << ", points " << points << " (gates: residual " << n.outsideResidual
-       << ", aperture " << n.outsideAperture << ", sigma " << n.outsideSigma << ")";
+       << " in " << n.clusterPairs << " pairs, surfaces " << n.surfaces << ", candidates " << n.candidates
+       << ", ambiguous " << n.ambiguous << ", matches " << n.matches << ", points " << points << " (gates: residual "
+       << n.outsideResidual << ", aperture " << n.outsideAperture << ", sigma " << n.outsideSigma << ")";
   return text.str();
 }
 

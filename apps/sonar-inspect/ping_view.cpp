@@ -50,9 +50,10 @@ void drawGrid(cv::Mat& picture, const sonar::PingGeometry& geometry, const sonar
       cv::line(picture, at(range_m, b), at(range_m, std::min(b + kDeg, high)), kGridColor, 1, cv::LINE_AA);
     drawText(picture, cv::format("%g m", range_m), at(range_m, high) + cv::Point(3, 12));
   }
-  for (double b = std::ceil(low / (15 * kDeg)) * 15 * kDeg; b <= high; b += 15 * kDeg) {
+  for (auto i = std::lround(std::ceil(low / (15 * kDeg))); 15 * kDeg * static_cast<double>(i) <= high; ++i) {
+    const double b = 15 * kDeg * static_cast<double>(i);
     cv::line(picture, at(0, b), at(geometry.maxRange_m(), b), kGridColor, 1, cv::LINE_AA);
-    drawText(picture, cv::format("%+.0f", b / kDeg), at(0.97 * geometry.maxRange_m(), b));
+    drawText(picture, cv::format("%+.0f", b / kDeg + 0.0), at(0.97 * geometry.maxRange_m(), b));
   }
 }
 

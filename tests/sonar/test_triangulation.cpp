@@ -160,15 +160,13 @@ TEST(ArcIntersection, ExactMeasurements_MeetAtThePointWithoutMisfit) {
     for (int i = 0; i < 300; ++i) {
       const Eigen::Vector3d p = randomPoint(random);
       const Pair m = measureBoth(p, s);
-      Feature h, v;
-      h.range_m = m.h.range_m, h.bearing_rad = m.h.bearing_rad;
-      v.range_m = m.v.range_m, v.bearing_rad = m.v.bearing_rad;
       const ArcIntersector intersector(s.T_h_v, 40 * kDeg, 60 * kDeg, 0);
-      const auto point = intersector.intersect(arcOf(h, s.model_h), planeOf(v, s.model_v, s.T_h_v.inverse()));
+      const auto point = intersector.intersect(arcOf(m.h.range_m, m.h.bearing_rad, s.model_h),
+                                               planeOf(m.v.range_m, m.v.bearing_rad, s.model_v, s.T_h_v.inverse()));
       ASSERT_TRUE(point.has_value()) << s.name;
       EXPECT_LT((point->p_h - p).norm(), 1e-9) << s.name;
       EXPECT_NEAR(point->rangeMisfit_m, 0, 1e-9) << s.name;
-      const auto [low, high] = intersector.rangesFromVertical(arcOf(h, s.model_h));
+      const auto [low, high] = intersector.rangesFromVertical(arcOf(m.h.range_m, m.h.bearing_rad, s.model_h));
       EXPECT_GE(m.v.range_m, low - 0.005) << s.name;  // bounded by three points of the arc, so to some millimetres
       EXPECT_LE(m.v.range_m, high + 0.005) << s.name;
     }
@@ -183,10 +181,8 @@ TEST(ArcIntersection, NoisyMeasurements_MisfitPredictsTheExactResidual) {
     Pair m = measureBoth(randomPoint(random), s);
     addNoise(m.h, random);
     addNoise(m.v, random);
-    Feature h, v;
-    h.range_m = m.h.range_m, h.bearing_rad = m.h.bearing_rad;
-    v.range_m = m.v.range_m, v.bearing_rad = m.v.bearing_rad;
-    const auto point = intersector.intersect(arcOf(h, s.model_h), planeOf(v, s.model_v, s.T_h_v.inverse()));
+    const auto point = intersector.intersect(arcOf(m.h.range_m, m.h.bearing_rad, s.model_h),
+                                             planeOf(m.v.range_m, m.v.bearing_rad, s.model_v, s.T_h_v.inverse()));
     ASSERT_TRUE(point.has_value());
     const double predicted = std::abs(point->rangeMisfit_m) / (0.01 * std::sqrt(2.0));
     // The lever arm of 0.19 m adds 0.5 mm to the misfit's 14 mm, and the rest is second order.
@@ -197,11 +193,9 @@ TEST(ArcIntersection, NoisyMeasurements_MisfitPredictsTheExactResidual) {
 TEST(ArcIntersection, OutsideTheApertures_GivesNothing) {
   const core::Isometry T = verticalPose();
   const ArcIntersector intersector(T, kAperture, kAperture, 0);
-  Feature h, v;
-  h.range_m = v.range_m = 5;
-  v.bearing_rad = 15 * kDeg;  // 15 degrees above the horizontal sonar's plane, whose aperture ends at 10
-  const auto plane = planeOf(v, BearingModel::Azimuth, T.inverse());
-  EXPECT_FALSE(intersector.intersect(arcOf(h, BearingModel::Azimuth), plane).has_value());
+  // 15 degrees above the horizontal sonar's plane, whose aperture ends at 10.
+  const auto plane = planeOf(5, 15 * kDeg, BearingModel::Azimuth, T.inverse());
+  EXPECT_FALSE(intersector.intersect(arcOf(5, 0, BearingModel::Azimuth), plane).has_value());
 }
 
 }  // namespace

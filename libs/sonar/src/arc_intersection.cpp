@@ -5,19 +5,19 @@
 
 namespace s2s::sonar {
 
-FeatureArc arcOf(const Feature& h, obs::BearingModel model) {
-  const double c = h.range_m * std::cos(h.bearing_rad), s = h.range_m * std::sin(h.bearing_rad);
-  if (model == obs::BearingModel::Azimuth) return {{0, 0, 0}, {c, s, 0}, {0, 0, h.range_m}, h.range_m};
-  return {{0, s, 0}, {c, 0, 0}, {0, 0, c}, h.range_m};
+FeatureArc arcOf(double range_m, double bearing_rad, obs::BearingModel model) {
+  const double c = range_m * std::cos(bearing_rad), s = range_m * std::sin(bearing_rad);
+  if (model == obs::BearingModel::Azimuth) return {{0, 0, 0}, {c, s, 0}, {0, 0, range_m}, range_m};
+  return {{0, s, 0}, {c, 0, 0}, {0, 0, c}, range_m};
 }
 
-BeamPlane planeOf(const Feature& v, obs::BearingModel model, const core::Isometry& T_v_h) {
+BeamPlane planeOf(double range_m, double bearing_rad, obs::BearingModel model, const core::Isometry& T_v_h) {
   // In the vertical sonar's frame: azimuth -sin(b) x + cos(b) y = 0; cone y = r sin(b).
   const Eigen::Vector3d normal_v = model == obs::BearingModel::Azimuth
-                                       ? Eigen::Vector3d(-std::sin(v.bearing_rad), std::cos(v.bearing_rad), 0)
+                                       ? Eigen::Vector3d(-std::sin(bearing_rad), std::cos(bearing_rad), 0)
                                        : Eigen::Vector3d(0, 1, 0);
-  const double offset_v = model == obs::BearingModel::Azimuth ? 0 : v.range_m * std::sin(v.bearing_rad);
-  return {T_v_h.linear().transpose() * normal_v, offset_v - normal_v.dot(T_v_h.translation()), v.range_m};
+  const double offset_v = model == obs::BearingModel::Azimuth ? 0 : range_m * std::sin(bearing_rad);
+  return {T_v_h.linear().transpose() * normal_v, offset_v - normal_v.dot(T_v_h.translation()), range_m};
 }
 
 ArcIntersector::ArcIntersector(const core::Isometry& T_h_v, double aperture_h_rad, double aperture_v_rad,

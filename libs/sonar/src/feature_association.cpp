@@ -3,156 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
-#include "s2s/sonar/arc_intersection.h"
+#include "match_candidates.h"
 
 namespace s2s::sonar {
 
 namespace {
 
-/// A possible match with what the ambiguity test needs.
-struct Candidate {
-  int horizontal, vertical;
-  float cost;
-  float height_m;  ///< position along the horizontal feature's arc
-};
-
-/// Mean and standard deviation of a cluster's intensity context: makes sonars of different gain comparable.
-struct IntensityScale {
-  double mean = 0, sigma = 1;
-};
-
-double contextOf(const Feature& f) { return 0.5 * (f.contextX + f.contextY); }
-
-std::vector<IntensityScale> intensityScales(const std::vector<Feature>& features) {
-  std::vector<IntensityScale> scales;
-  std::vector<double> count, sum, squares;
-  for (const Feature& f : features) {
-    if (f.cluster < 0) continue;
-    const auto c = static_cast<std::size_t>(f.cluster);
-    if (c >= scales.size()) {
-      scales.resize(c + 1);
-      count.resize(c + 1), sum.resize(c + 1), squares.resize(c + 1);
-    }
-    count[c] += 1;
-    sum[c] += contextOf(f);
-    squares[c] += contextOf(f) * contextOf(f);
-  }
-  for (std::size_t c = 0; c < scales.size(); ++c) {
-    if (count[c] == 0) continue;
-    scales[c].mean = sum[c] / count[c];
-    scales[c].sigma = std::max(1.0, std::sqrt(std::max(0.0, squares[c] / count[c] - scales[c].mean * scales[c].mean)));
-  }
-  return scales;
-}
-
-std::vector<double> standardised(const std::vector<Feature>& features) {
-  const auto scales = intensityScales(features);
-  std::vector<double> values(features.size(), 0);
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    if (features[i].cluster < 0) continue;
-    const auto& scale = scales[static_cast<std::size_t>(features[i].cluster)];
-    values[i] = (contextOf(features[i]) - scale.mean) / scale.sigma;
-  }
-  return values;
-}
-
-/// Indices of the features of each cluster, in order of range.
-std::vector<std::vector<int>> byCluster(const std::vector<Feature>& features) {
-  std::vector<std::vector<int>> members;
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    if (features[i].cluster < 0) continue;
-    const auto c = static_cast<std::size_t>(features[i].cluster);
-    if (c >= members.size()) members.resize(c + 1);
-    members[c].push_back(static_cast<int>(i));
-  }
-  for (auto& m : members)
-    std::stable_sort(m.begin(), m.end(), [&](int a, int b) {
-      return features[static_cast<std::size_t>(a)].range_m < features[static_cast<std::size_t>(b)].range_m;
-    });
-  return members;
-}
-
-/// Candidates by geometry.
-class GeometricSearch {
- public:
-  GeometricSearch(const std::vector<Feature>& horizontal, const std::vector<Feature>& vertical,
-                  const PairGeometry& geometry, const FeatureAssociationOptions& options)
-      : horizontal_(horizontal),
-        geometry_(geometry),
-        options_(options),
-        intersector_(geometry.T_h_v, geometry.aperture_h_rad, geometry.aperture_v_rad, options.apertureMargin_rad),
-        intensity_h_(standardised(horizontal)),
-        intensity_v_(standardised(vertical)) {
-    const core::Isometry T_v_h = geometry.T_h_v.inverse();
-    for (const Feature& v : vertical) planes_.push_back(planeOf(v, geometry.model_v, T_v_h));
-  }
-
-  void search(const std::vector<int>& membersH, const std::vector<int>& membersV, std::vector<Candidate>& out) const {
-    for (const int h : membersH) searchOne(h, membersV, out);
-  }
-
- private:
-  /// Standard deviation of the range misfit: both ranges, and both bearings over the lever arm between the sonars.
-  double misfitSigma(const Feature& h) const {
-    const double lever_m = geometry_.T_h_v.translation().norm() * h.bearingSigma_rad;
-    return std::sqrt(geometry_.rangeSigma_h_m * geometry_.rangeSigma_h_m +
-                     geometry_.rangeSigma_v_m * geometry_.rangeSigma_v_m + 2 * lever_m * lever_m);
-  }
-
-  void searchOne(int h, const std::vector<int>& membersV, std::vector<Candidate>& out) const {
-    const Feature& feature = horizontal_[static_cast<std::size_t>(h)];
-    const FeatureArc arc = arcOf(feature, geometry_.model_h);
-    const double sigma = misfitSigma(feature), gate = options_.maxResidual * sigma;
-    const auto [nearest, farthest] = intersector_.rangesFromVertical(arc);
-    auto it = std::lower_bound(membersV.begin(), membersV.end(), nearest - gate, [this](int v, double range) {
-      return planes_[static_cast<std::size_t>(v)].range_m < range;
-    });
-    for (; it != membersV.end(); ++it) {
-      const BeamPlane& plane = planes_[static_cast<std::size_t>(*it)];
-      if (plane.range_m > farthest + gate) break;
-      const auto point = intersector_.intersect(arc, plane);
-      if (!point || std::abs(point->rangeMisfit_m) > gate) continue;
-      const double misfit = point->rangeMisfit_m / sigma;
-      const double contrast = intensity_h_[static_cast<std::size_t>(h)] - intensity_v_[static_cast<std::size_t>(*it)];
-      const double cost = misfit * misfit + options_.intensityWeight * contrast * contrast;
-      out.push_back({h, *it, static_cast<float>(cost), static_cast<float>(point->p_h.z())});
-    }
-  }
-
-  const std::vector<Feature>& horizontal_;
-  const PairGeometry& geometry_;
-  const FeatureAssociationOptions& options_;
-  ArcIntersector intersector_;
-  std::vector<double> intensity_h_, intensity_v_;
-  std::vector<BeamPlane> planes_;
-};
-
-/// The paper's cost; the horizontal feature's `literalNeighbours` best partners.
-void searchLiterally(const std::vector<Feature>& horizontal, const std::vector<Feature>& vertical,
-                     const std::vector<int>& membersH, const std::vector<int>& membersV, int neighbours,
-                     std::vector<Candidate>& out) {
-  std::vector<std::pair<double, int>> costs(membersV.size());
-  const std::size_t kept = std::min(membersV.size(), static_cast<std::size_t>(neighbours));
-  for (const int i : membersH) {
-    const Feature& h = horizontal[static_cast<std::size_t>(i)];
-    for (std::size_t k = 0; k < membersV.size(); ++k) {
-      const Feature& v = vertical[static_cast<std::size_t>(membersV[k])];
-      const double dx = h.p_h.x() - v.p_h.x();
-      const double dg = h.intensity - v.intensity, d1 = h.contextX - v.contextY, d2 = h.contextY - v.contextX;
-      costs[k] = {std::sqrt(dx * dx + dg * dg + d1 * d1 + d2 * d2), membersV[k]};
-    }
-    std::partial_sort(costs.begin(), costs.begin() + static_cast<std::ptrdiff_t>(kept), costs.end());
-    for (std::size_t k = 0; k < kept; ++k) {
-      const auto& v = vertical[static_cast<std::size_t>(costs[k].second)];
-      out.push_back({i, costs[k].second, static_cast<float>(costs[k].first), static_cast<float>(v.p_h.z())});
-    }
-  }
-}
-
 /// Candidates of one horizontal feature that are almost as good as its best: how far apart their points are.
 struct Spread {
-  double width_m = 0, sigma_m = 0;
+  double width_rad = 0, sigma_rad = 0;
 };
 
 Spread spreadOf(const Candidate* begin, const Candidate* end, double margin) {
@@ -162,11 +23,11 @@ Spread spreadOf(const Candidate* begin, const Candidate* end, double margin) {
   for (const Candidate* c = begin; c != end; ++c) {
     if (c->cost > best + margin) continue;
     const double w = std::exp(-0.5 * (c->cost - best));
-    low = std::min(low, static_cast<double>(c->height_m));
-    high = std::max(high, static_cast<double>(c->height_m));
+    low = std::min(low, static_cast<double>(c->elevation_rad));
+    high = std::max(high, static_cast<double>(c->elevation_rad));
     weight += w;
-    sum += w * c->height_m;
-    squares += w * c->height_m * c->height_m;
+    sum += w * c->elevation_rad;
+    squares += w * c->elevation_rad * c->elevation_rad;
   }
   const double mean = sum / weight;
   return {high - low, std::sqrt(std::max(0.0, squares / weight - mean * mean))};
@@ -174,6 +35,7 @@ Spread spreadOf(const Candidate* begin, const Candidate* end, double margin) {
 
 /// Drops ambiguous horizontal features and notes the spread of the others.
 std::vector<Candidate> resolveAmbiguity(const std::vector<Candidate>& candidates,
+                                        const std::vector<Feature>& horizontal,
                                         const FeatureAssociationOptions& options, std::vector<double>& spread_m,
                                         std::size_t& rejected) {
   std::vector<Candidate> kept;
@@ -182,8 +44,9 @@ std::vector<Candidate> resolveAmbiguity(const std::vector<Candidate>& candidates
     std::size_t end = begin;
     while (end < candidates.size() && candidates[end].horizontal == candidates[begin].horizontal) ++end;
     const Spread spread = spreadOf(&candidates[begin], &candidates[begin] + (end - begin), options.ambiguityCost);
-    spread_m[static_cast<std::size_t>(candidates[begin].horizontal)] = spread.sigma_m;
-    if (options.ambiguity == AmbiguityRule::Reject && spread.width_m > options.maxSpread_m)
+    const auto h = static_cast<std::size_t>(candidates[begin].horizontal);
+    spread_m[h] = spread.sigma_rad * horizontal[h].range_m;
+    if (options.ambiguity == AmbiguityRule::Reject && spread.width_rad * horizontal[h].range_m > options.maxSpread_m)
       ++rejected;
     else
       kept.insert(kept.end(), candidates.begin() + static_cast<std::ptrdiff_t>(begin),
@@ -193,23 +56,25 @@ std::vector<Candidate> resolveAmbiguity(const std::vector<Candidate>& candidates
   return kept;
 }
 
-std::vector<Candidate> findCandidates(const std::vector<Feature>& horizontal, const std::vector<Feature>& vertical,
-                                      const std::vector<ClusterPair>& pairs, const PairGeometry& geometry,
-                                      const FeatureAssociationOptions& options) {
-  const auto membersH = byCluster(horizontal), membersV = byCluster(vertical);
-  const GeometricSearch geometric(horizontal, vertical, geometry, options);
-  std::vector<Candidate> candidates;
-  for (const ClusterPair& pair : pairs) {
-    const auto& h = membersH[static_cast<std::size_t>(pair.horizontal)];
-    const auto& v = membersV[static_cast<std::size_t>(pair.vertical)];
-    if (options.cost == FeatureCost::Geometric)
-      geometric.search(h, v, candidates);
-    else
-      searchLiterally(horizontal, vertical, h, v, options.literalNeighbours, candidates);
+/// Every horizontal feature with the elevations that the vertical sonar offers for it.
+std::vector<ElevationSample> elevationSamples(const std::vector<Candidate>& candidates,
+                                              const std::vector<Feature>& horizontal,
+                                              const std::vector<Feature>& vertical) {
+  std::vector<ElevationSample> samples;
+  std::vector<double> weights(horizontal.size(), 0);
+  for (const Feature& h : horizontal) samples.push_back({h.range_m, h.bearing_rad, false, 0});
+  for (const Candidate& c : candidates) {
+    const auto h = static_cast<std::size_t>(c.horizontal);
+    const double w = static_cast<double>(vertical[static_cast<std::size_t>(c.vertical)].intensity) *
+                     std::exp(-0.5 * static_cast<double>(c.cost));
+    weights[h] += w;
+    samples[h].meanElevation_rad += w * c.elevation_rad;
   }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.horizontal < b.horizontal; });
-  return candidates;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].known = weights[i] > 0;
+    if (samples[i].known) samples[i].meanElevation_rad /= weights[i];
+  }
+  return samples;
 }
 
 /// Cost of leaving a feature alone: above every candidate, so no feature stays alone that has a free partner.
@@ -217,6 +82,62 @@ double unmatchedCostFor(const std::vector<Candidate>& candidates) {
   float highest = 0;
   for (const Candidate& c : candidates) highest = std::max(highest, c.cost);
   return static_cast<double>(highest) + 1.0;
+}
+
+using Elevations = std::vector<std::optional<double>>;
+
+/// Fits a surface to each horizontal cluster and gives the elevation it has at each feature, where it has one.
+Elevations surfaceElevations(const std::vector<Candidate>& candidates, const std::vector<Feature>& horizontal,
+                             const std::vector<Feature>& vertical, double aperture_rad,
+                             const SurfaceModelOptions& options, std::size_t& surfaces) {
+  const auto samples = elevationSamples(candidates, horizontal, vertical);
+  std::vector<std::vector<ElevationSample>> members;
+  for (std::size_t i = 0; i < horizontal.size(); ++i) {
+    if (horizontal[i].cluster < 0) continue;
+    const auto c = static_cast<std::size_t>(horizontal[i].cluster);
+    if (c >= members.size()) members.resize(c + 1);
+    members[c].push_back(samples[i]);
+  }
+  std::vector<std::optional<SurfaceModel>> models;
+  for (const auto& cluster : members) {
+    models.push_back(SurfaceModel::fit(cluster, aperture_rad, options));
+    surfaces += models.back() ? 1 : 0;
+  }
+  Elevations elevations(horizontal.size());
+  for (std::size_t i = 0; i < horizontal.size(); ++i) {
+    const Feature& h = horizontal[i];
+    if (!samples[i].known || h.cluster < 0) continue;
+    const auto& model = models[static_cast<std::size_t>(h.cluster)];
+    if (model) elevations[i] = model->elevation(h.range_m, h.bearing_rad);
+  }
+  return elevations;
+}
+
+/// Adds the squared distance from the surface to the candidates' costs.
+void addSurfaceCosts(std::vector<Candidate>& candidates, const Elevations& expected, double sigma_rad) {
+  for (Candidate& c : candidates) {
+    const auto& elevation_rad = expected[static_cast<std::size_t>(c.horizontal)];
+    if (!elevation_rad) continue;
+    const double off = (c.elevation_rad - *elevation_rad) / sigma_rad;
+    c.cost += static_cast<float>(off * off);
+  }
+}
+
+void dropExpensive(std::vector<Candidate>& candidates, double maxCost) {
+  candidates.erase(
+      std::remove_if(candidates.begin(), candidates.end(), [maxCost](const Candidate& c) { return c.cost > maxCost; }),
+      candidates.end());
+}
+
+Assignment assignCandidates(const std::vector<Candidate>& candidates, std::size_t rows, std::size_t columns,
+                            const AssignmentOptions& options) {
+  AssignmentProblem problem;
+  problem.rows = static_cast<int>(rows);
+  problem.columns = static_cast<int>(columns);
+  problem.unmatchedCost = unmatchedCostFor(candidates);
+  problem.edges.reserve(candidates.size());
+  for (const Candidate& c : candidates) problem.edges.push_back({c.horizontal, c.vertical, c.cost});
+  return assign(problem, options);
 }
 
 }  // namespace
@@ -227,25 +148,30 @@ FeatureAssociation associateFeatures(const std::vector<Feature>& horizontal, con
   FeatureAssociation result;
   auto candidates = findCandidates(horizontal, vertical, clusterPairs, geometry, options);
   result.candidates = candidates.size();
+  Elevations expected(horizontal.size());
   std::vector<double> spread_m(horizontal.size(), 0);
-  if (options.cost == FeatureCost::Geometric && options.ambiguity != AmbiguityRule::Ignore)
-    candidates = resolveAmbiguity(candidates, options, spread_m, result.ambiguous);
-
-  AssignmentProblem problem;
-  problem.rows = static_cast<int>(horizontal.size());
-  problem.columns = static_cast<int>(vertical.size());
-  problem.unmatchedCost = unmatchedCostFor(candidates);
-  problem.edges.reserve(candidates.size());
-  for (const Candidate& c : candidates) problem.edges.push_back({c.horizontal, c.vertical, c.cost});
-  const Assignment assignment = assign(problem, options.assignment);
+  if (options.cost == FeatureCost::Geometric) {
+    if (options.surface.enabled)
+      expected = surfaceElevations(candidates, horizontal, vertical, geometry.aperture_h_rad, options.surface,
+                                   result.surfaces);
+    addSurfaceCosts(candidates, expected, options.surfaceSigma_rad);
+    dropExpensive(candidates, options.maxCost);
+    if (options.ambiguity != AmbiguityRule::Ignore)
+      candidates = resolveAmbiguity(candidates, horizontal, options, spread_m, result.ambiguous);
+  }
+  const Assignment assignment = assignCandidates(candidates, horizontal.size(), vertical.size(), options.assignment);
   result.cost = assignment.cost;
   result.lowerBound = assignment.lowerBound;
-
   for (const Candidate& c : candidates) {
     const auto h = static_cast<std::size_t>(c.horizontal);
     if (assignment.columnOfRow[h] != c.vertical) continue;
     if (!result.matches.empty() && result.matches.back().horizontal == h) continue;
-    result.matches.push_back({h, static_cast<std::size_t>(c.vertical), c.cost, spread_m[h]});
+    const Feature& v = vertical[static_cast<std::size_t>(c.vertical)];
+    // Without a surface to choose among the beams of a run, its centre is the best guess.
+    const bool chosen = expected[h].has_value();
+    result.matches.push_back({h, static_cast<std::size_t>(c.vertical), c.cost,
+                              chosen ? v.beamBearing_rad : v.bearing_rad,
+                              chosen ? options.surfaceSigma_rad : v.bearingSigma_rad, spread_m[h]});
   }
   return result;
 }

@@ -76,15 +76,19 @@ class Extractor {
   void addRun(int bin, const Run& run) {
     // A run that the trimmed region cuts off has no centre.
     const bool whole = run.first > overlap_.region.firstBeam && run.end < overlap_.region.endBeam;
-    const bool thin = whole && width(run) <= options_.maxRunWidth_rad;
+    const double width_rad = width(run);
+    const bool thin = whole && width_rad <= options_.maxRunWidth_rad;
+    const double sigma_rad =
+        thin ? std::hypot(options_.bearingSigma_rad, width_rad / std::sqrt(12.0)) : options_.bearingSigma_rad;
     for (int beam = run.first; beam < run.end; ++beam) {
       if (!overlap_.contains(beam, bin)) continue;
       Feature f;
       f.bin = static_cast<std::uint32_t>(bin);
       f.beam = static_cast<std::uint32_t>(beam);
       f.range_m = geometry_.range_m(bin);
-      f.bearing_rad = thin ? run.bearing_rad : geometry_.bearings_rad[f.beam];
-      f.bearingSigma_rad = options_.bearingSigma_rad;
+      f.beamBearing_rad = geometry_.bearings_rad[f.beam];
+      f.bearing_rad = thin ? run.bearing_rad : f.beamBearing_rad;
+      f.bearingSigma_rad = sigma_rad;
       f.p_h = T_ * (f.range_m * directions_[f.beam]);
       f.intensity = static_cast<float>(image_.at<std::uint8_t>(bin, beam));
       addContext(f);

@@ -151,6 +151,8 @@ core::OptionTable optionTable(FeatureAssociationOptions& o) {
   table.add("intensity_weight", o.intensityWeight, "geometric: weight of the squared difference in intensity",
             core::atLeast(0));
   table.addDegrees("aperture_margin_deg", o.apertureMargin_rad, "points may lie outside an aperture by this", {0, 90});
+  table.add("max_cost", o.maxCost, "geometric: largest cost of a match, surface and intensity included",
+            core::positive());
   table.add("literal_neighbours", o.literalNeighbours, "literal: candidates of each horizontal feature", {1, 100000});
   table.addChoice("ambiguity", o.ambiguity,
                   {{"ignore", AmbiguityRule::Ignore}, {"keep", AmbiguityRule::Keep}, {"reject", AmbiguityRule::Reject}},
@@ -159,6 +161,11 @@ core::OptionTable optionTable(FeatureAssociationOptions& o) {
             core::atLeast(0));
   table.add("max_spread_m", o.maxSpread_m, "reject: allowed distance between the points of such candidates",
             core::atLeast(0));
+  table.add("surface", o.surface.enabled, "geometric: fit a smooth surface to each cluster and let it choose");
+  table.addDegrees("surface_sigma_deg", o.surfaceSigma_rad, "surface: elevations off it by this cost one unit",
+                   core::positive());
+  table.add("surface_max_scatter", o.surface.maxEdgeScatter,
+            "surface: refused if the edges of the beams scatter more, as a share of the range", core::positive());
   table.addParsed(
       "optimal_edges", "problems up to this many candidates are solved optimally, larger ones by an auction",
       "a whole number, at least 0",

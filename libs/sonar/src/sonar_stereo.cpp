@@ -40,10 +40,6 @@ std::vector<Feature> findFeatures(const ProcessedPing& ping, const SonarDevice& 
   return features;
 }
 
-BeamMeasurement measurementOf(const Feature& f, double rangeSigma_m) {
-  return {f.range_m, f.bearing_rad, rangeSigma_m, f.bearingSigma_rad};
-}
-
 /// One point from a match, or nothing if a gate rejects it.
 class PointMaker {
  public:
@@ -55,7 +51,8 @@ class PointMaker {
 
   void add(const FeatureMatch& match, const Feature& h, const Feature& v, StereoResult& result) const {
     const Triangulation t =
-        triangulator_.fuse(measurementOf(h, pair_.rangeSigma_h_m), measurementOf(v, pair_.rangeSigma_v_m));
+        triangulator_.fuse({h.range_m, h.bearing_rad, pair_.rangeSigma_h_m, h.bearingSigma_rad},
+                           {v.range_m, match.bearing_v_rad, pair_.rangeSigma_v_m, match.bearingSigma_v_rad});
     const bool exact = options_.triangulation.fusion == Fusion::Exact;
     if (!t.converged || (exact && t.residual > options_.maxResidual)) {
       ++result.counts.outsideResidual;
@@ -167,6 +164,7 @@ StereoResult SonarStereo::process(const ProcessedPing& h, const ProcessedPing& v
   result.counts = {t.features_h.size(),        t.features_v.size(),   clusterCount(t.features_h),
                    clusterCount(t.features_v), t.clusterPairs.size(), association.candidates,
                    association.ambiguous,      t.matches.size()};
+  result.counts.surfaces = association.surfaces;
   const PointMaker maker(pair, options_);
   for (const FeatureMatch& match : t.matches)
     maker.add(match, t.features_h[match.horizontal], t.features_v[match.vertical], result);

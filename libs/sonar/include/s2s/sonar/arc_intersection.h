@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <utility>
 
 #include "s2s/core/transform.h"
-#include "s2s/sonar/features.h"
 #include "s2s/sonar/ping_geometry.h"
 
 namespace s2s::sonar {
@@ -24,8 +24,8 @@ struct BeamPlane {
   double range_m = 0;
 };
 
-FeatureArc arcOf(const Feature& h, obs::BearingModel model);
-BeamPlane planeOf(const Feature& v, obs::BearingModel model, const core::Isometry& T_v_h);
+FeatureArc arcOf(double range_m, double bearing_rad, obs::BearingModel model);
+BeamPlane planeOf(double range_m, double bearing_rad, obs::BearingModel model, const core::Isometry& T_v_h);
 
 /// Where an arc meets a beam plane.
 struct ArcPlanePoint {

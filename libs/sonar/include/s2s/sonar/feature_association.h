@@ -6,6 +6,7 @@
 #include "s2s/sonar/assignment.h"
 #include "s2s/sonar/cluster_association.h"
 #include "s2s/sonar/features.h"
+#include "s2s/sonar/surface_model.h"
 
 namespace s2s::sonar {
 
@@ -30,10 +31,14 @@ struct FeatureAssociationOptions {
   double maxResidual = 3.0;                        ///< Geometric: gate on |range misfit| / sigma
   double intensityWeight = 0.25;                   ///< Geometric: of the squared difference of standardised intensities
   double apertureMargin_rad = 1.0 * M_PI / 180.0;  ///< points may lie outside an aperture by this
+  double maxCost = 9.0;                            ///< Geometric: gate on the whole cost
   int literalNeighbours = 16;                      ///< Literal: candidates kept for each horizontal feature
   AmbiguityRule ambiguity = AmbiguityRule::Reject;
   double ambiguityCost = 4.0;  ///< candidates within this cost of the best are almost as good
   double maxSpread_m = 0.3;    ///< Reject: allowed distance between such candidates' points
+  /// Geometric: a smooth surface tells which of the vertical sonar's bearings at one range belongs to which beam.
+  SurfaceModelOptions surface;
+  double surfaceSigma_rad = 0.6 * M_PI / 180.0;  ///< elevations off the surface by this cost one unit
   AssignmentOptions assignment;
 };
 
@@ -41,6 +46,7 @@ struct FeatureAssociationOptions {
 struct FeatureMatch {
   std::size_t horizontal = 0, vertical = 0;  ///< indices of the features
   double cost = 0;
+  double bearing_v_rad = 0, bearingSigma_v_rad = 0;  ///< what the vertical sonar is taken to have measured
   /// Standard deviation, along the horizontal feature's arc, of the points of the candidates that are almost as good.
   double spread_m = 0;
 };
@@ -49,6 +55,7 @@ struct FeatureAssociation {
   std::vector<FeatureMatch> matches;  ///< in order of the horizontal features; no feature stands twice
   std::size_t candidates = 0;         ///< pairs that passed the gates
   std::size_t ambiguous = 0;          ///< horizontal features rejected as ambiguous
+  std::size_t surfaces = 0;           ///< horizontal clusters that a smooth surface was fitted to
   double cost = 0, lowerBound = 0;    ///< of the assignment
 };
 

@@ -16,7 +16,9 @@ struct FeatureOptions {
   /// Step to the immediate neighbours of a feature in the Cartesian image.
   double contextStep_m = 0.02;
   /// A beam is wider than the spacing of beams, so a thin surface lights up a short run of beams at its range. Runs up
-  /// to this width give their features the bearing of the run's centre of intensity; 0 leaves every beam its own.
+  /// to this width give their features the bearing of the run's centre of intensity, with the standard deviation of a
+  /// uniform spread over the run: the surface may also be tilted across the aperture, and then each beam of the run saw
+  /// another part of it. 0 leaves every beam its own.
   double maxRunWidth_rad = 4.0 * M_PI / 180.0;
   double rangeSigma_m = 0.01;  ///< without the bin's own rounding
   double bearingSigma_rad = 0.15 * M_PI / 180.0;
@@ -26,8 +28,9 @@ struct FeatureOptions {
 struct Feature {
   std::uint32_t bin = 0, beam = 0;
   double range_m = 0;
-  double bearing_rad = 0;
-  double bearingSigma_rad = 0;
+  double beamBearing_rad = 0;   ///< of its beam
+  double bearing_rad = 0;       ///< of the centre of its run of beams if that is short, else of its beam
+  double bearingSigma_rad = 0;  ///< of bearing_rad
   Eigen::Vector3d p_h = Eigen::Vector3d::Zero();  ///< on its own sonar's imaging plane, in the horizontal sonar's frame
   float intensity = 0;                            ///< gamma
   float contextX = 0;  ///< mean of gamma and its two neighbours along x of its own Cartesian image

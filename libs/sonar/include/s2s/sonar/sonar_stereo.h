@@ -43,6 +43,7 @@ struct StereoCounts {
   std::size_t features_h = 0, features_v = 0;
   std::size_t clusters_h = 0, clusters_v = 0, clusterPairs = 0;
   std::size_t candidates = 0, ambiguous = 0, matches = 0;
+  std::size_t surfaces = 0;  ///< horizontal clusters that a smooth surface was fitted to
   std::size_t outsideResidual = 0, outsideAperture = 0, outsideSigma = 0;
 };
 
