@@ -82,7 +82,7 @@ TEST(SurfaceModel, SurfaceSquareToTheSonar_IsRefused) {
 }
 
 TEST(SurfaceModel, RaggedEdges_AreRefused) {
-  EXPECT_FALSE(SurfaceModel::fit(samplesOf(seabed(0), 0.8), kAperture, {}).has_value());
+  EXPECT_FALSE(SurfaceModel::fit(samplesOf(seabed(0), 1.6), kAperture, {}).has_value());
 }
 
 TEST(SurfaceModel, FewSamples_AreRefused) {
