@@ -33,6 +33,7 @@ EchoTracer::EchoTracer(const SonarOptions& options, const SonarGeometry& geometr
     const double pattern = elevationPattern(options, 0.5 * (edges_rad_[i] + edges_rad_[i + 1]));
     gains_.push_back(pattern * pattern);
   }
+  for (const double edge : edges_rad_) edgeAngles_.emplace_back(edge);
 }
 
 double EchoTracer::recordedBin(double range_m) const {
@@ -46,17 +47,18 @@ void EchoTracer::makeRays(const core::Isometry& T_world_sensor, std::size_t beam
   const double maxRange_m =
       options_.maxRange_m * options_.soundSpeed_mps / options_.soundSpeedAssumed_mps + 2 * options_.pulseLength_m;
   work.bearing_rad = geometry_.trueBearing_rad(geometry_.bearingInCell_rad(beam, random.uniform()));
+  const Angle bearing(work.bearing_rad);
   const std::size_t n = edges_rad_.size() - 1;
   work.rays.resize(n);
   work.elevations_rad.resize(n);
   work.solidAngles.resize(n);
   work.edges.resize(n + 1);
-  for (std::size_t i = 0; i <= n; ++i)
-    work.edges[i] = (R * geometry_.direction(work.bearing_rad, edges_rad_[i])).cast<float>();
+  for (std::size_t i = 0; i <= n; ++i) work.edges[i] = (R * geometry_.direction(bearing, edgeAngles_[i])).cast<float>();
   for (std::size_t i = 0; i < n; ++i) {
     const double step = edges_rad_[i + 1] - edges_rad_[i];
     const double elevation = edges_rad_[i] + random.uniform() * step;
-    const Vector3d d = R * geometry_.direction(work.bearing_rad, elevation);
+    const Angle angle(elevation);
+    const Vector3d d = R * geometry_.direction(bearing, angle);
     // Solid angle: the azimuth half-planes narrow with cos(elevation), the cones with cos(bearing).
     const double narrowing =
         options_.bearingModel == obs::BearingModel::Azimuth ? std::cos(elevation) : std::cos(work.bearing_rad);

@@ -76,7 +76,23 @@ LidarModel::LidarModel(const LidarOptions& options, const Isometry& T_vehicle_se
       caster_(caster),
       seed_(seed),
       prototype_(makePrototype(options)) {
+  makeDirections();
   if (options.effects.ownVessel && !scene.vesselParts.empty()) findOwnVessel();
+}
+
+void LidarModel::makeDirections() {
+  const Isometry T_sensor_lidar = core::toIsometry(prototype_.T_sensor_lidar);
+  for (std::size_t column = 0; column < prototype_.columnCount; ++column) {
+    const double azimuth = prototype_.columnAzimuth_rad[column];
+    origins_.push_back(T_sensor_lidar *
+                       Vector3d(kBeamOriginOffset_m * std::cos(azimuth), kBeamOriginOffset_m * std::sin(azimuth), 0));
+    for (std::size_t row = 0; row < prototype_.rowCount; ++row) {
+      const double altitude = prototype_.beamAltitude_rad[row], theta = azimuth + prototype_.beamAzimuth_rad[row];
+      directions_.push_back(T_sensor_lidar.linear() * Vector3d(std::cos(altitude) * std::cos(theta),
+                                                               std::cos(altitude) * std::sin(theta),
+                                                               std::sin(altitude)));
+    }
+  }
 }
 
 void LidarModel::findOwnVessel() {
@@ -95,17 +111,11 @@ void LidarModel::findOwnVessel() {
 }
 
 void LidarModel::makeRays(const Isometry& T_world_sensor, std::size_t column, Column& work) const {
-  const Isometry T_world_lidar = T_world_sensor * core::toIsometry(prototype_.T_sensor_lidar);
-  const double azimuth = prototype_.columnAzimuth_rad[column];
-  const Vector3d origin =
-      T_world_lidar * Vector3d(kBeamOriginOffset_m * std::cos(azimuth), kBeamOriginOffset_m * std::sin(azimuth), 0);
+  const Vector3d origin = T_world_sensor * origins_[column];
   work.rays.clear();
   work.water_m.clear();
   for (std::size_t row = 0; row < prototype_.rowCount; ++row) {
-    const double altitude = prototype_.beamAltitude_rad[row], theta = azimuth + prototype_.beamAzimuth_rad[row];
-    const Vector3d direction =
-        T_world_lidar.linear() *
-        Vector3d(std::cos(altitude) * std::cos(theta), std::cos(altitude) * std::sin(theta), std::sin(altitude));
+    const Vector3d direction = T_world_sensor.linear() * directions_[column * prototype_.rowCount + row];
     const double water_m =
         direction.z() < -1e-6 ? origin.z() / -direction.z() : std::numeric_limits<double>::infinity();
     const double reach_m = std::clamp(water_m, 0.0, options_.maxRange_m);  // nothing from below the water

@@ -39,10 +39,9 @@ SonarGeometry::SonarGeometry(const SonarOptions& options) : options_(options) {
   for (int i = 0; i <= n; ++i) edges_.push_back(bearingAt(-1 + 2.0 * (i - 0.5) / (n - 1)));
 }
 
-Vector3d SonarGeometry::direction(double b, double e) const {
-  if (options_.bearingModel == obs::BearingModel::Azimuth)
-    return {std::cos(e) * std::cos(b), std::cos(e) * std::sin(b), std::sin(e)};
-  return {std::cos(b) * std::cos(e), std::sin(b), std::cos(b) * std::sin(e)};
+Vector3d SonarGeometry::direction(const Angle& b, const Angle& e) const {
+  if (options_.bearingModel == obs::BearingModel::Azimuth) return {e.cosine * b.cosine, e.cosine * b.sine, e.sine};
+  return {b.cosine * e.cosine, b.sine, b.cosine * e.sine};
 }
 
 double SonarGeometry::trueBearing_rad(double b) const {

@@ -35,6 +35,7 @@ class LidarModel {
 
  private:
   struct Column;
+  void makeDirections();
   void findOwnVessel();
   void makeRays(const core::Isometry& T_world_sensor, std::size_t column, Column& work) const;
   void findEchoes(std::size_t column, Random& random, Column& work) const;
@@ -45,8 +46,10 @@ class LidarModel {
   const Scene& scene_;
   const RayCaster& caster_;
   std::uint64_t seed_;
-  obs::CObservationLidarSweep prototype_;  // tables that all sweeps share
-  std::vector<LidarEcho> ownVessel_;       // per pixel, nearest part of the vessel itself
+  obs::CObservationLidarSweep prototype_;    // tables that all sweeps share
+  std::vector<Eigen::Vector3d> origins_;     // of each column's beams, sensor frame
+  std::vector<Eigen::Vector3d> directions_;  // of each beam, column by column, sensor frame
+  std::vector<LidarEcho> ownVessel_;         // per pixel, nearest part of the vessel itself
 };
 
 /// "64x1024@10": rows, columns, sweeps a second.

@@ -57,6 +57,7 @@ class EchoTracer {
   const RayCaster& caster_;
   SurfaceMultipath multipath_;
   double noisePower_;
+  std::vector<Angle> edgeAngles_;
   std::vector<double> edges_rad_, gains_;  // of the elevation samples; gains are two-way
 };
 

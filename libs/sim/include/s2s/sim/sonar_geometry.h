@@ -1,11 +1,18 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 #include "s2s/sim/sonar_options.h"
 
 namespace s2s::sim {
+
+/// Cosine and sine of an angle, for where they are used more than once.
+struct Angle {
+  explicit Angle(double angle_rad) : cosine(std::cos(angle_rad)), sine(std::sin(angle_rad)) {}
+  double cosine, sine;
+};
 
 /// Directions of an imaging sonar's beams, in its frame (x along the central beam, y to positive bearings, z up).
 class SonarGeometry {
@@ -21,7 +28,10 @@ class SonarGeometry {
   }
   /// Unit vector at a bearing and an elevation: on the half-plane of constant azimuth, or on the cone that a straight
   /// array forms; in both, the elevation turns out of the imaging plane.
-  Eigen::Vector3d direction(double bearing_rad, double elevation_rad) const;
+  Eigen::Vector3d direction(const Angle& bearing, const Angle& elevation) const;
+  Eigen::Vector3d direction(double bearing_rad, double elevation_rad) const {
+    return direction(Angle(bearing_rad), Angle(elevation_rad));
+  }
   /// Inverse of `direction`: bearing and elevation of a unit vector.
   Eigen::Vector2d bearingElevation(const Eigen::Vector3d& direction) const;
   /// Where a beam that the device believes at `bearing_rad` really looks, and the reverse: a beam former with a wrong
