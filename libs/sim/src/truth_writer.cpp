@@ -113,6 +113,24 @@ void writeSeabedGrid(const std::string& path, const Scene& scene, const VesselMo
   file.commit();
 }
 
+/// The vessel's parts in its own frame, with a hand's breadth around them.
+Eigen::AlignedBox3d vesselBox(const Scene& scene) {
+  constexpr double kMargin_m = 0.1;
+  Eigen::AlignedBox3d box;
+  for (const SceneObject& part : scene.vesselParts)
+    for (const auto& v : part.mesh.vertices) box.extend(v.cast<double>());
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(kMargin_m);
+  return {box.min() - margin, box.max() + margin};
+}
+
+std::string printBox(const Eigen::AlignedBox3d& box) {
+  std::string text;
+  for (const Eigen::Vector3d& corner : {box.min(), box.max()})
+    for (int axis = 0; axis < 3; ++axis)
+      text += (text.empty() ? "" : " ") + core::printDouble(std::round(100 * corner[axis]) / 100);
+  return text;
+}
+
 void writeControlPoints(const std::string& path, const Scene& scene, std::uint64_t seed) {
   Random random(seed, 0x637074);
   std::string text = "id,x,y,z,sigma\n";
@@ -151,6 +169,9 @@ void writeSurveyIni(const std::string& path, const Scene& scene, const Simulatio
   add("imu", o.imu.label, o.imu.T_vehicle_imu);
   add("sonar_horizontal", o.sonarHorizontal.label, o.sonarHorizontal.T_vehicle_sensor);
   add("sonar_vertical", o.sonarVertical.label, o.sonarVertical.T_vehicle_sensor);
+  if (!scene.vesselParts.empty())
+    text += "\n[odometry]\n// Box around the vessel's own parts, as a tape measure gives it.\nhull_box = " +
+            printBox(vesselBox(scene)) + "\n";
   core::writeTextFile(path, text);
 }
 
