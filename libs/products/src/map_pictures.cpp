@@ -15,7 +15,7 @@ constexpr int kLegend_px = 92;         // band below the picture
 constexpr double kTurn_rad = 0.45;     // of the oblique view against the path's direction
 constexpr double kDescent_rad = 0.72;  // of its line of sight
 constexpr double kCutBehindPath_m = 1.5;
-constexpr double kLidarSize_m = 0.06, kSonarSize_m = 0.15;
+constexpr double kLidarSize_m = 0.08, kSonarSize_m = 0.25;  // sonar points are sparser
 constexpr double kLargestExaggeration = 8;
 constexpr int kSectionBorder_px = 70;
 
@@ -108,8 +108,7 @@ struct MapPictures::Implementation {
     // Looks along the path's direction, so that "across" grows to the left as the path sees it.
     ParallelView view = plainView(viewAxes(context.frame.along, 0));
     view.height_px = options.height_px;
-    view.fit(corners(context.frame, low_m, high_m, sectionBottom(), sectionTop()), kSectionBorder_px,
-             kLargestExaggeration);
+    view.fit(corners(context.frame, low_m, high_m, sectionBottom(), sectionTop()), kSectionBorder_px);
     return view;
   }
   double sectionBottom() const { return std::min(bottom_m, context.waterHeight_m) - 0.5; }

@@ -1,6 +1,5 @@
 #include "s2s/products/mrpt_files.h"
 
-#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservationPointCloud.h>
@@ -11,6 +10,8 @@
 #include <mrpt/opengl/stock_objects.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/serialization/CArchive.h>
+#include <mrpt/serialization/CSerializable.h>
+#include <mrpt/serialization/archiveFrom_std_streams.h>
 
 #include <algorithm>
 
@@ -20,6 +21,19 @@
 namespace s2s::products {
 
 namespace {
+
+/// As `saveToFile` of MRPT's classes, but not compressed, which their readers accept: they do not notice when closing
+/// the gz stream fails, and compressing takes ten times as long as all the rest.
+void writeObject(const std::string& path, const mrpt::serialization::CSerializable& object) {
+  core::AtomicFile file(path);
+  auto archive = mrpt::serialization::archiveFrom<std::ostream>(file.stream());
+  try {
+    archive << object;
+  } catch (const std::exception&) {  // its text is MRPT's call stack
+    throw core::OutputError("writing failed", path, "check that the disk has room");
+  }
+  file.commit();
+}
 
 mrpt::opengl::CSetOfLines::Ptr pathLines(const core::Trajectory& trajectory) {
   auto lines = mrpt::opengl::CSetOfLines::Create();
@@ -92,10 +106,7 @@ void SceneBuilder::write(const std::string& path, const core::Trajectory& trajec
   auto frame = mrpt::opengl::stock_objects::CornerXYZ(2.0F);
   frame->setName("map");
   scene.insert(frame);
-  core::AtomicFile file(path);
-  if (!scene.saveToFile(file.temporaryPath()))
-    throw core::OutputError("cannot write the scene", path, "check the output folder and that the disk has room");
-  file.commit();
+  writeObject(path, scene);
 }
 
 SimpleMapBuilder::SimpleMapBuilder(const core::Trajectory& keyframes, std::uint64_t stride)
@@ -130,10 +141,7 @@ void SimpleMapBuilder::write(const std::string& path) const {
     const mrpt::poses::CPose3DPDFGaussian pose(core::toPose(keyframes_.poses()[i].T));
     map.insert(pose, frame);
   }
-  core::AtomicFile file(path);
-  if (!map.saveToFile(file.temporaryPath()))
-    throw core::OutputError("cannot write the simple map", path, "check the output folder and that the disk has room");
-  file.commit();
+  writeObject(path, map);
 }
 
 }  // namespace s2s::products
