@@ -174,7 +174,6 @@ TEST(CloudStatistics, CountsBoundsAndQuantiles) {
   EXPECT_EQ(statistics.notFinite(), 1U);
   EXPECT_EQ(statistics.layer(map::Layer::Lidar).maxIntensity, 999);
   EXPECT_EQ(statistics.box().max(), Eigen::Vector3d(9.99, 5, 9.99));
-  EXPECT_EQ(statistics.roundMiddle(), Eigen::Vector3d(5, 5, 5));
   // Heights are even over 0 to 10 m; bins of 0.1 m.
   EXPECT_NEAR(statistics.heightQuantile_m({map::Layer::Lidar}, 0.25), 2.5, 0.1);
   EXPECT_EQ(statistics.heightQuantile_m({map::Layer::Stereo}, 0.5), 0);

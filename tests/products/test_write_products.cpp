@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -132,6 +133,24 @@ TEST(WriteProducts, BrokenPoints_AreLeftOutAndReported) {
   const auto result = writeProducts(source, {}, {}, quickOptions(), folder.path());
   EXPECT_EQ(readPlyPoints(folder.file("lidar.ply")).size(), 1U);
   EXPECT_THAT(result.summary.warnings, testing::Contains(testing::HasSubstr("4 map points were not finite")));
+}
+
+TEST(WriteProducts, StrayPointsWorldsAway_CostOnlyThemselves) {
+  const TempFolder folder;
+  const SampleMap map;
+  const PointSource source = [&](map::Layer layer, const PointVisitor& visit) {
+    map.source()(layer, visit);
+    map::MapPoint stray;
+    stray.layer = layer;
+    stray.p_map = {5e7, 5e7, -3};
+    for (int i = 0; i < 3; ++i) visit(stray);
+  };
+  const auto result = writeProducts(source, map.trajectories(), sampleSummary(map), quickOptions(), folder.path());
+  EXPECT_THAT(result.summary.warnings, testing::Contains(testing::HasSubstr("no seabed grid")));
+  EXPECT_THAT(result.summary.warnings, testing::Contains(testing::HasSubstr("12 points lie too far away for LAS")));
+  std::uint64_t lasCount = 0;
+  std::memcpy(&lasCount, readBytes(folder.file("map.las")).data() + 247, sizeof lasCount);
+  EXPECT_EQ(lasCount, static_cast<std::uint64_t>(map.lidarPoints + 3 * map.sonarPoints));
 }
 
 TEST(WriteProducts, UnknownWaterHeight_IsTakenFromThePathAndSaid) {

@@ -47,10 +47,6 @@ Eigen::AlignedBox3d CloudStatistics::box() const {
   return box;
 }
 
-Eigen::Vector3d CloudStatistics::roundMiddle() const {
-  return count() == 0 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(box().center().array().round());
-}
-
 double CloudStatistics::heightQuantile_m(const std::vector<map::Layer>& layers, double quantile) const {
   std::vector<std::uint64_t> sum(kBins, 0);
   std::uint64_t total = 0;

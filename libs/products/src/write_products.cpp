@@ -137,7 +137,13 @@ class Writing {
 
   void writeGrid() {
     if (!wantsGrid()) return;
-    grid_ = gridder().grid();
+    try {
+      grid_ = gridder().grid();
+    } catch (const core::OutputError& error) {  // too large: no reason to lose the rest of the map
+      gridder_.reset();
+      warn("no seabed grid: " + error.fault() + "; " + error.remedy());
+      return;
+    }
     result_.seabed = gridder().statistics();
     gridder_.reset();
     if (grid_.columns == 0) {
@@ -168,7 +174,9 @@ class Writing {
 
   LasFrame lasFrame() const {
     LasFrame frame;
-    frame.offset_m = statistics_.roundMiddle();
+    // The path's middle rather than the data's: a single stray point far away cannot push the offset off the survey.
+    const Eigen::Vector2d middle_m = SurveyFrame(trajectories_.optimised, statistics_).middle_m;
+    frame.offset_m = {std::round(middle_m.x()), std::round(middle_m.y()), 0};
     frame.surveyTime = result_.summary.startTime;
     for (const auto layer : map::kLayers)
       frame.intensityFactor[static_cast<std::size_t>(layer)] =

@@ -28,8 +28,6 @@ class CloudStatistics {
   std::uint64_t notFinite() const;
   /// Empty (`isEmpty()`) without points.
   Eigen::AlignedBox3d box() const;
-  /// Middle of the box in whole metres.
-  Eigen::Vector3d roundMiddle() const;
   /// Height below which the share `quantile` of the layers' points lies, to 0.1 m; 0 without points.
   double heightQuantile_m(const std::vector<map::Layer>& layers, double quantile) const;
 
