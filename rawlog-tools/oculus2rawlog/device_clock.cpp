@@ -9,6 +9,8 @@ namespace s2s::tools::oculus {
 namespace {
 
 constexpr std::int64_t kWrap_ns = std::int64_t{1} << 32;
+/// Longer pauses are not bridged: a ping number so far ahead is damage.
+constexpr double kLongestPause_ns = 86'400e9;
 
 }  // namespace
 
@@ -18,10 +20,9 @@ std::int64_t DeviceClock::time_ns(const Ping& ping) {
   if (started_) {
     const std::int64_t pings = std::int64_t{ping.pingId} - lastPingId_;
     std::int64_t step_ns = static_cast<std::uint32_t>(ping.startTime_ns - static_cast<std::uint32_t>(last_ns_));
-    if (period_ns_ > 0 && pings > 0) {
-      const double missing = static_cast<double>(pings * period_ns_ - step_ns) / static_cast<double>(kWrap_ns);
-      step_ns += kWrap_ns * static_cast<std::int64_t>(std::max(0.0, std::round(missing)));
-    }
+    const double expected_ns = static_cast<double>(pings) * static_cast<double>(period_ns_);
+    if (expected_ns > 0 && expected_ns < kLongestPause_ns)
+      step_ns += kWrap_ns * std::llround(std::max(0.0, (expected_ns - static_cast<double>(step_ns)) / kWrap_ns));
     if (pings > 0) period_ns_ = step_ns / pings;
     now_ns = last_ns_ + step_ns;
   }

@@ -104,7 +104,8 @@ PingResult parsePing(std::string_view message) {
   ping.bytesPerSample = static_cast<std::uint8_t>(dataSize + 1);
   if (ping.rangeCount == 0 || ping.beamCount == 0) return fault("an image of no size");
   if (!(ping.rangeResolution_m > 0 && ping.rangeResolution_m < 10)) return fault("an impossible range resolution");
-  if (ping.startTime_s && !std::isfinite(*ping.startTime_s)) return fault("an impossible start time");
+  if (ping.startTime_s && !(*ping.startTime_s >= 0 && *ping.startTime_s < 1e9))
+    return fault("an impossible start time");
   const std::size_t bearingsEnd = at.bytes + sizeof(std::int16_t) * ping.beamCount;
   if (load<std::uint32_t>(message, at.messageSize) != header->messageBytes() || imageOffset < bearingsEnd ||
       imageOffset + imageSize > header->messageBytes())

@@ -16,6 +16,9 @@ struct PacketHeader {
   std::uint64_t serialNumber = 0;
 };
 
+/// Device times beyond this (the year 2096) are damage.
+constexpr std::uint64_t kLatestDeviceTime_ns = 4'000'000'000'000'000'000;
+
 struct ColumnHeader {
   std::uint64_t time_ns = 0;        ///< device clock
   std::uint32_t measurementId = 0;  ///< number of the column in the turn

@@ -2,6 +2,7 @@
 
 #include <mrpt/obs/CObservationIMU.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "ouster2rawlog/imu_packet.h"
@@ -17,6 +18,9 @@
 namespace s2s::tools::ouster {
 
 namespace {
+
+/// Successive sweeps further apart than this, or backwards, mean that the clock was set.
+constexpr double kClockJump_s = 60;
 
 /// Which datagrams are the chosen sensor's. What the user does not choose is taken from the first LiDAR packet.
 struct Selection {
@@ -109,8 +113,21 @@ class Converter {
     if (!sweep) return;
     sweep->sensorLabel = options_.label;
     sweep->sensorPose = core::toPose(options_.T_vehicle_sensor);
-    writer.write(sweep);
-    report_.addRead(kSweeps);
+    const core::TimeNs time = core::fromMrptTime(sweep->timestamp);
+    if (lastSweep_ && std::abs(core::secondsBetween(*lastSweep_, time)) > kClockJump_s)
+      report_.addNote("the sensor's clock jumps by " + core::formatUnixTime(time - *lastSweep_) + " s at " +
+                      core::formatUtc(*lastSweep_) + ": split the capture there");
+    lastSweep_ = time;
+    write(sweep, kSweeps, writer);
+  }
+
+  void write(const mrpt::obs::CObservation::Ptr& observation, const char* name, obs::RawlogWriter& writer) {
+    try {
+      writer.write(observation);
+      report_.addRead(name);
+    } catch (const core::InputError& e) {
+      report_.addSkipped(std::string(name) + " because the sensor's clock ran backwards", e.where());
+    }
   }
 
   void writeImu(const UdpDatagram& datagram, obs::RawlogWriter& writer) {
@@ -129,11 +146,15 @@ class Converter {
       report_.addSkipped("IMU packets to another port", "port " + std::to_string(datagram.destinationPort));
       return;
     }
-    for (const auto& reading : parseImuPacket(datagram.payload.data(), datagram.payload.size()))
-      writer.write(toObservation(reading));
+    for (const auto& reading : parseImuPacket(datagram.payload.data(), datagram.payload.size())) {
+      if (reading.time_ns > kLatestDeviceTime_ns)
+        report_.addSkipped("IMU readings with an impossible time");
+      else
+        write(toObservation(reading), kImuReadings, writer);
+    }
   }
 
-  mrpt::obs::CObservationIMU::Ptr toObservation(const ImuReading& reading) {
+  mrpt::obs::CObservationIMU::Ptr toObservation(const ImuReading& reading) const {
     using namespace mrpt::obs;
     auto imu = CObservationIMU::Create();
     imu->timestamp = core::toMrptTime(static_cast<core::TimeNs>(reading.time_ns) + timeOffset_ns_);
@@ -145,7 +166,6 @@ class Converter {
     imu->set(IMU_WX, reading.turnRate_radps.x());
     imu->set(IMU_WY, reading.turnRate_radps.y());
     imu->set(IMU_WZ, reading.turnRate_radps.z());
-    report_.addRead(kImuReadings);
     return imu;
   }
 
@@ -189,6 +209,7 @@ class Converter {
   Selection selection_;
   std::optional<std::uint16_t> imuPort_;
   std::int64_t timeOffset_ns_ = 0;
+  std::optional<core::TimeNs> lastSweep_;
   ConversionReport report_;
 };
 

@@ -89,7 +89,7 @@ void SweepBuilder::addColumn(const std::uint8_t* packet, std::uint32_t packetCol
   const ColumnHeader header = format_.column(packet, packetColumn);
   if (!header.valid) return;
   const std::uint32_t column = header.measurementId - firstColumn_;  // wraps to a large number before the window
-  if (column >= columnCount_ || header.time_ns > static_cast<std::uint64_t>(INT64_MAX)) {
+  if (column >= columnCount_ || header.time_ns > kLatestDeviceTime_ns) {
     ++statistics_.impossibleColumns;
     return;
   }

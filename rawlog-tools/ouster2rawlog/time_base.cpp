@@ -17,7 +17,7 @@ bool TimeBaseFinder::add(const UdpDatagram& packet) {
   captureHasTime_ = captureHasTime_ && packet.captureTime_ns >= kEarliestUnixTime;
   for (std::uint32_t column = 0; column < format_.columnsPerPacket(); ++column) {
     const ColumnHeader header = format_.column(packet.payload.data(), column);
-    if (!header.valid) continue;
+    if (!header.valid || header.time_ns > kLatestDeviceTime_ns) continue;
     const auto time_ns = static_cast<std::int64_t>(header.time_ns);
     if (first_ns_ < 0) first_ns_ = time_ns;
     fastest_ns_ = std::min(fastest_ns_, packet.captureTime_ns - time_ns);

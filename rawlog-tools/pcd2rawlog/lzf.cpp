@@ -1,10 +1,12 @@
 #include "pcd2rawlog/lzf.h"
 
+#include <algorithm>
+
 namespace s2s::tools::pcd {
 
 std::optional<std::string> lzfDecompress(std::string_view packed, std::size_t size) {
   std::string out;
-  out.reserve(size);
+  out.reserve(std::min(size, 300 * packed.size()));  // no block unpacks to more than 264 / 3 times its size
   std::size_t at = 0;
   const auto byteAt = [&packed](std::size_t i) { return static_cast<std::uint8_t>(packed[i]); };
   while (at < packed.size()) {

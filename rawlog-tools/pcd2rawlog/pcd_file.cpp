@@ -119,13 +119,14 @@ void readBinary(std::string_view data, const PcdHeader& header, const Selection&
   }
 }
 
-std::string unpack(std::string_view data, const std::string& path) {
+std::string unpack(std::string_view data, std::size_t unpackedBytes, const std::string& path) {
   std::uint32_t sizes[2] = {0, 0};
   if (data.size() >= sizeof sizes) std::memcpy(sizes, data.data(), sizeof sizes);
   if (data.size() < sizeof sizes || data.size() - sizeof sizes < sizes[0])
     throw core::InputError("the file ends within its compressed data", path, "copy the file again");
-  auto unpacked = lzfDecompress(data.substr(sizeof sizes, sizes[0]), sizes[1]);
-  if (!unpacked) throw core::InputError("the compressed data are damaged", path, "copy the file again");
+  auto unpacked = lzfDecompress(data.substr(sizeof sizes, sizes[0]), unpackedBytes);
+  if (!unpacked || sizes[1] != unpackedBytes)
+    throw core::InputError("the compressed data are damaged", path, "copy the file again");
   return std::move(*unpacked);
 }
 
@@ -194,7 +195,7 @@ PcdCloud readPcd(const std::string& path) {
       readBinary(data, header, selection, false, path, cloud);
       break;
     case PcdEncoding::BinaryCompressed:
-      readBinary(unpack(data, path), header, selection, true, path, cloud);
+      readBinary(unpack(data, header.pointCount * header.bytesPerPoint(), path), header, selection, true, path, cloud);
       break;
   }
   return cloud;

@@ -80,6 +80,9 @@ class HeaderParser {
 
   PcdHeader finish(std::size_t dataBegin) {
     if (header_.fields.empty()) refuse("the header has no FIELDS", path_);
+    for (const auto& field : header_.fields)
+      if (field.count == 0 || (field.type == 'F' && field.size < 4))
+        refuse("the field '" + field.name + "' has an impossible SIZE or COUNT", path_);
     if (!points_ && !width_) refuse("the header has neither POINTS nor WIDTH", path_);
     header_.pointCount = points_.value_or(width_.value_or(0) * height_);
     if (header_.pointCount > kMaxPoints) refuse("the header claims too many points", path_);

@@ -1,7 +1,8 @@
 #include "rawlog-merge/rawlog_merger.h"
 
-#include <algorithm>
+#include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <set>
 
 #include "s2s/core/error.h"
@@ -13,6 +14,9 @@
 namespace s2s::tools::merge {
 
 namespace {
+
+/// Half of what the type holds, some 146 years around 1970; MRPT's invalid time is beyond.
+constexpr core::TimeNs kFarthest = std::numeric_limits<core::TimeNs>::max() / 2;
 
 /// One input and its next observation.
 struct Input {
@@ -70,12 +74,13 @@ class Merger {
   /// Reads on to the input's next observation that has a time.
   void advance(Input& input) {
     while ((input.head = input.reader.next())) {
-      if (input.head->timestamp != INVALID_TIMESTAMP) {
-        input.headTime = core::fromMrptTime(input.head->timestamp) + input.offset_ns;
+      const core::TimeNs time = core::fromMrptTime(input.head->timestamp);
+      if (std::abs(time) < kFarthest && std::abs(input.offset_ns) < kFarthest) {
+        input.headTime = time + input.offset_ns;
         input.head->timestamp = core::toMrptTime(input.headTime);
         return;
       }
-      report_.addSkipped("records without a time", input.reader.where());
+      report_.addSkipped("records without a usable time", input.reader.where());
     }
   }
 

@@ -114,6 +114,13 @@ TEST(OculusDeviceClock, PauseLongerThanAWrap_IsBridgedByPingNumbers) {
   EXPECT_EQ(clock.time_ns(pingAt(302, 301u * period)) - start, std::int64_t{301} * period);
 }
 
+TEST(OculusDeviceClock, AbsurdPingNumber_DoesNotMoveTheClock) {
+  DeviceClock clock;
+  clock.time_ns(pingAt(1, 0));
+  clock.time_ns(pingAt(2, 100'000'000));
+  EXPECT_EQ(clock.time_ns(pingAt(4'000'000'000u, 200'000'000)), 200'000'000);
+}
+
 TEST(OculusDeviceClock, PingNumbersThatStartAgain_AreTakenAsOnePeriodOn) {
   DeviceClock clock;
   clock.time_ns(pingAt(1000, 0));

@@ -135,6 +135,25 @@ TEST_F(OusterConverter, NoWallClockAnywhere_BeginsAtTheDefault) {
   EXPECT_EQ(core::fromMrptTime(read<obs::CObservationLidarSweep>().at(0)->timestamp), kDefaultStartTime);
 }
 
+TEST_F(OusterConverter, ClockThatRunsBackwards_LosesRecordsButNotTheConversion) {
+  for (std::uint32_t frameId = 0; frameId < 40; ++frameId) addLidarFrame(frameId);  // 4 s
+  deviceStart_ = 1'000'000'000;  // the sensor was switched off and on
+  addLidarFrame(50);
+  addImu();
+  const auto report = convert();
+  EXPECT_EQ(report.readCount(ouster::kSweeps), 40u);
+  EXPECT_EQ(report.skippedCount("LiDAR sweeps because the sensor's clock ran backwards"), 1u);
+  EXPECT_EQ(report.skippedCount("IMU readings because the sensor's clock ran backwards"), 1u);
+  EXPECT_EQ(read<obs::CObservationLidarSweep>().size(), 40u);
+}
+
+TEST_F(OusterConverter, ClockThatIsSetWhileRecording_IsNoted) {
+  addLidarFrame(1);
+  deviceStart_ += 1'000'000'000'000;
+  addLidarFrame(2);
+  EXPECT_THAT(convert().text(), HasSubstr("the sensor's clock jumps by 1000.1"));
+}
+
 TEST_F(OusterConverter, FragmentedPackets_AreReadLikeWholeOnes) {
   std::uint16_t id = 1;
   for (std::uint32_t p = 0; p < 4; ++p)

@@ -106,6 +106,8 @@ TEST(Pcd, UnusableFiles_AreRefusedWithTheReason) {
   EXPECT_THAT(faultOf(header("x y z", "4 4", "F F F", 1, "ascii") + "1 2 3\n"), HasSubstr("SIZE has not one value"));
   EXPECT_THAT(faultOf(header("x y z", "4 4 3", "F F F", 1, "ascii") + "1 2 3\n"), HasSubstr("SIZE 3"));
   EXPECT_THAT(faultOf(header("x y z", "4 4 4", "F F Q", 1, "ascii") + "1 2 3\n"), HasSubstr("TYPE Q"));
+  EXPECT_THAT(faultOf(header("x y z", "4 4 2", "F F F", 1, "ascii") + "1 2 3\n"),
+              HasSubstr("field 'z' has an impossible"));
   EXPECT_THAT(faultOf(header("x y z", "4 4 4", "F F F", 1, "zipped") + "1 2 3\n"), HasSubstr("'zipped'"));
   EXPECT_THAT(faultOf(kXyzi + "1 2 3 4\n"), HasSubstr("ends after 1 of 2 points"));
   EXPECT_THAT(faultOf(kXyzi + "1 2 3 4\n1 2 x 4\n"), HasSubstr("point 1 does not parse"));
@@ -113,6 +115,10 @@ TEST(Pcd, UnusableFiles_AreRefusedWithTheReason) {
   EXPECT_THAT(faultOf(header("x y z", "4 4 4", "F F F", 9, "binary") + "1234"), HasSubstr("ends early"));
   EXPECT_THAT(faultOf(header("x y z", "4 4 4", "F F F", 999999999999, "binary")), HasSubstr("not a usable number"));
   EXPECT_THAT(faultOf(header("x y z", "4 4 4", "F F F", 1, "binary_compressed") + "12345678"), HasSubstr("compressed"));
+  // Compressed data that unpack to another size than the points take.
+  EXPECT_THAT(
+      faultOf(header("x y z", "4 4 4", "F F F", 9, "binary_compressed") + std::string("\3\0\0\0\2\0\0\0\1ab", 11)),
+      HasSubstr("compressed data are damaged"));
   EXPECT_THROW(tools::pcd::readPcd("/nowhere/a.pcd"), core::InputError);
 }
 

@@ -125,7 +125,7 @@ TEST_F(RawlogMerge, RecordsWithoutTimeOrLabel_AreToldApart) {
   }
   options_.inputs = {folder_.file("a")};
   const auto report = mergeRawlogs(options_);
-  EXPECT_EQ(report.skippedCount("records without a time"), 1u);
+  EXPECT_EQ(report.skippedCount("records without a usable time"), 1u);
   EXPECT_THAT(output(), ElementsAre("CObservationIMU 0"));
 }
 
