@@ -52,6 +52,10 @@ TEST_F(TruthReportTest, MapMadeFromTheTruth_HasNoErrors) {
   EXPECT_LT(report.layers.at(map::Layer::Lidar).distance_m.max, 1e-4);
   EXPECT_LT(report.layers.at(map::Layer::Stereo).distance_m.max, 1e-4);
   EXPECT_EQ(report.layers.at(map::Layer::Stereo).within5cm, 1);
+  ASSERT_EQ(report.media.size(), 2u);
+  EXPECT_EQ(report.media[0].precision5cm, 1);
+  EXPECT_EQ(report.media[1].precision5cm, 1);
+  EXPECT_GT(report.media[1].recall.within20cm, report.media[1].recall.within5cm);
   ASSERT_TRUE(report.seabed.has_value());
   EXPECT_EQ(report.seabed->withoutTruth, 0u);
   EXPECT_LT(report.seabed->max_m, 1e-4);

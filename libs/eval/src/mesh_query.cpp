@@ -141,4 +141,26 @@ std::optional<double> MeshQuery::topHeight_m(double x, double y) const {
   return (1 - u - v) * corners.a.z() + u * corners.b.z() + v * corners.c.z();
 }
 
+bool MeshQuery::blocked(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+  constexpr double kSkin_m = 0.005;  // surfaces that the ends lie on do not count
+  const double length_m = (to - from).norm();
+  if (length_m <= 2 * kSkin_m) return false;
+  const Eigen::Vector3f origin = (from - embree_->origin).cast<float>();
+  const Eigen::Vector3f direction = ((to - from) / length_m).cast<float>();
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRay ray{};
+  ray.org_x = origin.x();
+  ray.org_y = origin.y();
+  ray.org_z = origin.z();
+  ray.dir_x = direction.x();
+  ray.dir_y = direction.y();
+  ray.dir_z = direction.z();
+  ray.tnear = static_cast<float>(kSkin_m);
+  ray.tfar = static_cast<float>(length_m - kSkin_m);
+  ray.mask = ~0U;
+  rtcOccluded1(embree_->scene, &context, &ray);
+  return ray.tfar < 0;  // Embree sets it to minus infinity at a hit
+}
+
 }  // namespace s2s::eval

@@ -59,6 +59,16 @@ Json toJson(const LayerDistance& layer) {
   return result;
 }
 
+Json toJson(const MediumScore& m) {
+  const auto score = [](double precision, double recall) {
+    return Json{{"precision", precision}, {"recall", recall}, {"f_score", fScore(precision, recall)}};
+  };
+  return {{"visible_area_m2", m.recall.area_m2},
+          {"at_5cm", score(m.precision5cm, m.recall.within5cm)},
+          {"at_10cm", score(m.precision10cm, m.recall.within10cm)},
+          {"at_20cm", score(m.precision20cm, m.recall.within20cm)}};
+}
+
 Json toJson(const SeabedError& s) {
   Json orders;
   for (std::size_t i = 0; i < kHydrographicOrders.size(); ++i) orders[kHydrographicOrders[i].name] = s.withinOrder[i];
@@ -101,6 +111,7 @@ Json toJson(const TruthReport& report) {
   json["T_world_map"] = transform(report.T_world_map);
   json["layers"] = Json::object();
   for (const auto& [layer, distance] : report.layers) json["layers"][map::layerName(layer)] = toJson(distance);
+  for (const auto& medium : report.media) json[medium.name] = toJson(medium);
   json["seabed"] = report.seabed ? toJson(*report.seabed) : Json(nullptr);
   json["objects"] = Json::array();
   for (const auto& object : report.objects) json["objects"].push_back(toJson(object));

@@ -59,6 +59,20 @@ std::string layersText(const std::map<map::Layer, LayerDistance>& layers) {
   return table.print();
 }
 
+std::string mediaText(const std::vector<MediumScore>& media) {
+  TextTable table({"map and visible surface", "visible [m2]", "within", "precision [%]", "recall [%]", "F-score [%]"});
+  for (const auto& m : media) {
+    const auto row = [&](const char* within, double precision, double recall) {
+      table.addRow({m.name, fixed(m.recall.area_m2, 0), within, percent(precision), percent(recall),
+                    percent(fScore(precision, recall))});
+    };
+    row("5 cm", m.precision5cm, m.recall.within5cm);
+    row("10 cm", m.precision10cm, m.recall.within10cm);
+    row("20 cm", m.precision20cm, m.recall.within20cm);
+  }
+  return table.print();
+}
+
 std::string seabedText(const SeabedError& s) {
   TextTable heights({"seabed height", "cells", "bias [m]", "rmse [m]", "95 % [m]", "max [m]", "mean depth [m]",
                      "covered near path [%]", "within 2 sigma [%]"});
@@ -100,6 +114,7 @@ std::string toText(const TruthReport& report) {
   text += std::string("\nThe map is brought into the world by the ") + (poses ? "poses" : "positions") +
           " of trajectory.tum alone.\n";
   text += layersText(report.layers);
+  if (!report.media.empty()) text += '\n' + mediaText(report.media);
   if (report.seabed) text += '\n' + seabedText(*report.seabed);
   if (!report.objects.empty()) text += '\n' + objectsText(report.objects);
   for (const auto& note : report.notes) text += "note: " + note + '\n';

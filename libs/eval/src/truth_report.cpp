@@ -44,32 +44,6 @@ TrajectoryReport reportTrajectory(const std::string& name, const core::Trajector
   return report;
 }
 
-void measureLayers(const MapFolder& map, const MeshQuery& world, ObjectFinder& finder, const TruthOptions& options,
-                   TruthReport& report) {
-  for (const map::Layer layer : map::kLayers) {
-    const auto file = map.layerFile(layer);
-    if (!file) {
-      report.notes.push_back(std::string("layer ") + map::layerName(layer) + ": no such file in the map folder");
-      continue;
-    }
-    PointSample sample(options.maxPointsPerLayer);
-    std::uint64_t notFinite = 0;
-    products::forEachPlyPoint(*file, [&](const products::PlyPoint& point) {
-      if (!point.p.allFinite()) {
-        ++notFinite;
-        return;
-      }
-      const Eigen::Vector3d p_world = report.T_world_map * point.p;
-      sample.add(p_world);
-      finder.add(layer, p_world);
-    });
-    report.layers[layer] = measureLayer(world, sample.points(), sample.offered());
-    if (notFinite > 0)
-      report.notes.push_back(std::string("layer ") + map::layerName(layer) + ": " + std::to_string(notFinite) +
-                             " points are not finite and were left out");
-  }
-}
-
 /// The true path during the time of the map; a map of a part of the survey is not asked for the rest.
 core::Trajectory truePathOf(const core::Trajectory& truth, const core::Trajectory& estimate) {
   std::vector<core::TimedPose> poses;
@@ -77,7 +51,77 @@ core::Trajectory truePathOf(const core::Trajectory& truth, const core::Trajector
   return core::Trajectory(std::move(poses));
 }
 
-void measureSeabed(const MapFolder& map, const TruthFolder& truth, const TruthOptions& options, TruthReport& report) {
+/// Everything that each point of the map is shown to.
+struct PointConsumers {
+  ObjectFinder finder;
+  VisibleSurface aboveWater, underWater;
+
+  void add(map::Layer layer, const Eigen::Vector3d& p_world) {
+    finder.add(layer, p_world);
+    (layer == map::Layer::Lidar ? aboveWater : underWater).add(p_world);
+  }
+};
+
+void measureLayer(const std::string& file, map::Layer layer, const MeshQuery& world, PointConsumers& consumers,
+                  const TruthOptions& options, TruthReport& report) {
+  PointSample sample(options.maxPointsPerLayer);
+  std::uint64_t notFinite = 0;
+  products::forEachPlyPoint(file, [&](const products::PlyPoint& point) {
+    if (!point.p.allFinite()) {
+      ++notFinite;
+      return;
+    }
+    const Eigen::Vector3d p_world = report.T_world_map * point.p;
+    sample.add(p_world);
+    consumers.add(layer, p_world);
+  });
+  report.layers[layer] = measureLayer(world, sample.points(), sample.offered());
+  if (notFinite > 0)
+    report.notes.push_back(std::string("layer ") + map::layerName(layer) + ": " + std::to_string(notFinite) +
+                           " points are not finite and were left out");
+}
+
+/// Precision of the LiDAR layer, or of all others in proportion to their points; nothing without any points.
+std::optional<MediumScore> scoreMedium(const std::string& name, bool lidar, const TruthReport& report,
+                                       const VisibleSurface& surface) {
+  MediumScore score;
+  double points = 0;
+  for (const auto& [layer, distance] : report.layers) {
+    if ((layer == map::Layer::Lidar) != lidar) continue;
+    const auto n = static_cast<double>(distance.points);
+    points += n;
+    score.precision5cm += n * distance.within5cm;
+    score.precision10cm += n * distance.within10cm;
+    score.precision20cm += n * distance.within20cm;
+  }
+  if (points <= 0) return std::nullopt;
+  for (double* precision : {&score.precision5cm, &score.precision10cm, &score.precision20cm}) *precision /= points;
+  score.name = name;
+  score.recall = surface.recall();
+  return score;
+}
+
+void measureLayers(const MapFolder& map, const TruthFolder& truth, const core::Trajectory& path,
+                   const TruthOptions& options, TruthReport& report) {
+  const MeshQuery world(truth.world);
+  PointConsumers consumers{ObjectFinder(truth, options.objectReach_m),
+                           VisibleSurface(world, path, options.recall.lidar, options.recall),
+                           VisibleSurface(world, path, options.recall.sonar, options.recall)};
+  for (const map::Layer layer : map::kLayers) {
+    if (const auto file = map.layerFile(layer))
+      measureLayer(*file, layer, world, consumers, options, report);
+    else
+      report.notes.push_back(std::string("layer ") + map::layerName(layer) + ": no such file in the map folder");
+  }
+  report.objects = consumers.finder.presence();
+  if (auto score = scoreMedium("above_water", true, report, consumers.aboveWater))
+    report.media.push_back(std::move(*score));
+  if (auto score = scoreMedium("under_water", false, report, consumers.underWater))
+    report.media.push_back(std::move(*score));
+}
+
+void measureSeabed(const MapFolder& map, const TruthFolder& truth, const core::Trajectory& path,
+                   const TruthOptions& options, TruthReport& report) {
   const auto grid = map.seabed();
   products::PlyMesh surface = truth.seabedWithObjects();
   if (!grid)
@@ -85,8 +129,7 @@ void measureSeabed(const MapFolder& map, const TruthFolder& truth, const TruthOp
   else if (surface.triangles.empty())
     report.notes.emplace_back("seabed: the true world has no object of kind 'seabed'");
   else
-    report.seabed = compareSeabed(*grid, report.T_world_map, MeshQuery(std::move(surface)),
-                                  truePathOf(truth.trajectory, map.trajectory()), options.seabed);
+    report.seabed = compareSeabed(*grid, report.T_world_map, MeshQuery(std::move(surface)), path, options.seabed);
 }
 
 }  // namespace
@@ -110,10 +153,9 @@ TruthReport evaluateAgainstTruth(const std::string& mapFolder, const std::string
   report.mapAlignment = options.mapAlignment;
   report.T_world_map = alignMapToTruth(truth.trajectory, trajectory, options.mapAlignment);
 
-  ObjectFinder finder(truth, options.objectReach_m);
-  measureLayers(map, MeshQuery(truth.world), finder, options, report);
-  report.objects = finder.presence();
-  measureSeabed(map, truth, options, report);
+  const core::Trajectory path = truePathOf(truth.trajectory, trajectory);
+  measureLayers(map, truth, path, options, report);
+  measureSeabed(map, truth, path, options, report);
   return report;
 }
 

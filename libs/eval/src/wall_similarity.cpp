@@ -59,13 +59,15 @@ double medianMagnitude(const std::vector<double>& values) {
   std::vector<double> magnitudes;
   magnitudes.reserve(values.size());
   for (const double v : values) magnitudes.push_back(std::abs(v));
-  std::sort(magnitudes.begin(), magnitudes.end());
-  return percentile(magnitudes, 0.5);
+  const auto middle = magnitudes.begin() + static_cast<std::ptrdiff_t>(magnitudes.size() / 2);
+  std::nth_element(magnitudes.begin(), middle, magnitudes.end());
+  return *middle;
 }
 
 /// One step of iteratively reweighted least squares for the line y = offset + slope x with Huber's loss. The loss is
 /// convex, so the line it ends at does not depend on where it began; trimming by y would stop at any small slope.
-void improveLine(const Points& points, double& offset_m, double& slope) {
+/// Returns how far the line moved at most over the length of the wall.
+double improveLine(const Points& points, double length_m, double& offset_m, double& slope) {
   std::vector<double> residuals;
   residuals.reserve(points.size());
   for (const auto& p : points) residuals.push_back(p.y() - offset_m - slope * p.x());
@@ -81,23 +83,30 @@ void improveLine(const Points& points, double& offset_m, double& slope) {
     wxy += weight * x * y;
   }
   const double determinant = w * wxx - wx * wx;
-  if (determinant <= 0) return;  // all at one place along the wall: no slope to be had
-  slope = (w * wxy - wx * wy) / determinant;
-  offset_m = (wy - slope * wx) / w;
+  if (determinant <= 0) return 0;  // all at one place along the wall: no slope to be had
+  const double newSlope = (w * wxy - wx * wy) / determinant, newOffset_m = (wy - newSlope * wx) / w;
+  const double moved_m = std::abs(newOffset_m - offset_m) + 0.5 * length_m * std::abs(newSlope - slope);
+  slope = newSlope;
+  offset_m = newOffset_m;
+  return moved_m;
 }
 
 /// Turns and shifts the wall's line onto the LiDAR points; the middle moves only across the wall.
 void refine(const Points& lidar_map, const WallOptions& options, Eigen::Vector2d& middle, double& yaw_rad,
             double length_m) {
-  constexpr int kRounds = 5, kSteps = 20;  // a round selects the points anew about the better line
+  constexpr int kRounds = 10, kSteps = 30;
+  constexpr double kStands_m = 1e-5;  // far below what any sensor resolves
+  // a round selects the points anew about the better line
   for (int round = 0; round < kRounds; ++round) {
     const core::Isometry T_wall_map = wallFrame(middle, yaw_rad, options.waterHeight_m);
     const Points points = select(lidar_map, T_wall_map, options, length_m, options.waterHeight_m);
     requireEnough(points, "LiDAR");
     double offset_m = 0, slope = 0;
-    for (int step = 0; step < kSteps; ++step) improveLine(points, offset_m, slope);
+    for (int step = 0; step < kSteps; ++step)
+      if (improveLine(points, length_m, offset_m, slope) < kStands_m) break;
     middle += offset_m * Eigen::Vector2d(-std::sin(yaw_rad), std::cos(yaw_rad));
     yaw_rad += std::atan(slope);
+    if (std::abs(offset_m) + 0.5 * length_m * std::abs(slope) < kStands_m) return;
   }
 }
 

@@ -32,6 +32,9 @@ class MeshQuery {
   /// Height z of the topmost surface above or below (x, y). Nothing beside the mesh.
   std::optional<double> topHeight_m(double x, double y) const;
 
+  /// True if the straight line between two places meets the mesh, but for its last millimetres at either end.
+  bool blocked(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
+
   const products::PlyMesh& mesh() const { return mesh_; }
 
  private:

@@ -17,7 +17,7 @@ struct ObjectPresence {
   std::string name;
   std::array<std::uint64_t, map::kLayers.size()> near{};  ///< points within the reach of its surface, by layer
   std::array<std::uint64_t, map::kLayers.size()> own{};   ///< of these: nearer to it than to the bare seabed
-  double trueHeight_m = 0;                                ///< largest height of its corners above the bare seabed; NaN if there is none below
+  double trueHeight_m = 0;    ///< largest height of its corners above the bare seabed; NaN if there is none below
   double mappedHeight_m = 0;  ///< 95th percentile of its own points' height above the bare seabed; NaN without any
 };
 

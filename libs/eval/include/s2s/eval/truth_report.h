@@ -8,6 +8,7 @@
 #include "s2s/eval/layer_distance.h"
 #include "s2s/eval/object_presence.h"
 #include "s2s/eval/seabed_error.h"
+#include "s2s/eval/surface_recall.h"
 #include "s2s/eval/trajectory_error.h"
 
 namespace s2s::eval {
@@ -19,6 +20,7 @@ struct TruthOptions {
   std::size_t maxPointsPerLayer = 1'000'000;  ///< larger layers are sampled
   double objectReach_m = 0.1;
   SeabedErrorOptions seabed;
+  SurfaceRecallOptions recall;
 };
 
 struct RelativeErrorOver {
@@ -38,11 +40,19 @@ struct TrajectoryReport {
   std::vector<SegmentError> segments;
 };
 
+/// All layers of one medium together: how true the map is, and how much of what could be seen it holds.
+struct MediumScore {
+  std::string name;  ///< "above_water" (LiDAR) or "under_water" (all sonar layers)
+  double precision5cm = 0, precision10cm = 0, precision20cm = 0;  ///< shares of points near the true surface
+  SurfaceRecall recall;
+};
+
 struct TruthReport {
   std::vector<TrajectoryReport> trajectories;  ///< trajectory.tum, then odometry.tum if there is one
   TrajectoryAlignment mapAlignment = TrajectoryAlignment::Poses;
   core::Isometry T_world_map = core::Isometry::Identity();
   std::map<map::Layer, LayerDistance> layers;
+  std::vector<MediumScore> media;  ///< of those that have layers
   std::optional<SeabedError> seabed;
   std::vector<ObjectPresence> objects;
   std::vector<std::string> notes;  ///< what could not be compared, and why
