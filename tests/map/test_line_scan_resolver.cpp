@@ -188,6 +188,23 @@ TEST(LineScanResolver, WallSeenObliquely_LiesWhereTheLidarSawIt) {
   }
 }
 
+TEST(LineScanResolver, SeabedMetJustBeforeAWall_IsNotPulledOntoTheWall) {
+  // The seabed is 3 m down and the wall 4 m to the side: for the outer beams both are about equally far away.
+  Survey survey;
+  survey.scene.add(LeadingEdgeScene::seabed(kSeabed_m));
+  survey.scene.add({-Eigen::Vector3d::UnitY(), -kWall_m, [](const Eigen::Vector3d& p) { return p.z() < 2; }});
+  CSeabedSkyMap map(withElevation(LineElevation::Resolved));
+  insertLidarWall(map);
+  survey.run(map);
+  map.resolveLineScans();
+  std::vector<double> errors;
+  for (const MapPoint& p : pointsOf(map, Layer::LineHorizontal))
+    errors.push_back(std::min(std::abs(p.p_map.z() - kSeabed_m), std::abs(p.p_map.y() - kWall_m)));
+  // Noise of 1 cm, and the coarseness of arc steps where the wall is met.
+  EXPECT_LT(quantileOfSize(errors, 0.95), 0.05);
+  EXPECT_LT(quantileOfSize(errors, 1.0), 0.5);
+}
+
 TEST(LineScanResolver, SeabedKnownAndLowerEdgeSilent_ReturnIsPutWhereItsArcMeetsTheSeabed) {
   ResolverOptions options;
   LineScanResolver resolver;

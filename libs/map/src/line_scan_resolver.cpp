@@ -15,6 +15,9 @@ namespace {
 /// How well the heights of neighbouring places are known against each other; better than against the map.
 constexpr double kReliefSigma_m = 0.02;
 
+/// A point within this many standard deviations of the seabed's general level may be one of the seabed.
+constexpr double kLevelGate = 2.0;
+
 /// A place on an arc, decided.
 struct Decision {
   double elevation_rad = 0;
@@ -155,11 +158,22 @@ class PingResolver {
     const std::optional<Decision> seabed = meetSeabed(rangeSigma), wall = meetWall(rangeSigma);
     if (seabed && wall) return seabed->misfit <= wall->misfit ? *seabed : *wall;
     if (seabed) return *seabed;
-    if (wall) return *wall;
-    return lowestPoint(arc_, lowestElevation(scan_, T_map_sonar_, r.bearing_rad));
+    const Decision lowest = lowestPoint(arc_, lowestElevation(scan_, T_map_sonar_, r.bearing_rad));
+    return wall && isWallLikelier(*wall, lowest, r) ? *wall : lowest;
   }
 
  private:
+  /// Where the seabed in front of a wall is met first, the arc often ends just short of the wall. So a wall is believed
+  /// only if the lowest point does not lie at the seabed's general level; where that is unknown, only a close touch.
+  bool isWallLikelier(const Decision& wall, const Decision& lowest, const PackedReturn& r) const {
+    const Eigen::Vector3d p_map =
+        T_map_sonar_ * sonar::pointAt({r.range_m, r.bearing_rad, lowest.elevation_rad}, scan_.bearingModel);
+    const auto level = seabed_.levelNear(p_map.x(), p_map.y());
+    if (!level) return wall.misfit <= 1;
+    const double sigma_m = gapSigma(level->sigma_m, fromHalf(r.rangeSigmaHalf));
+    return p_map.z() - level->height_m > kLevelGate * sigma_m;
+  }
+
   double gapSigma(double surfaceSigma_m, double rangeSigma_m) const {
     return std::sqrt(surfaceSigma_m * surfaceSigma_m + rangeSigma_m * rangeSigma_m +
                      options_.surfaceRoughness_m * options_.surfaceRoughness_m);

@@ -52,6 +52,7 @@ LineFit fitLine(const Moments& m) {
 void SurfaceEvidence::reset(const ResolverOptions& options) {
   options_ = options;
   seabed_ = SparseGrid<Column>(options.cell_m);
+  levels_ = SparseGrid<Level>(levels_.cell_m());
   walls_ = SparseGrid<WallCell>(options.wallCell_m);
   wallCount_ = 0;
 }
@@ -68,6 +69,10 @@ void SurfaceEvidence::addSeabedPoint(const Eigen::Vector3d& p_map, double sigma_
   slab.weightedZ += weight * dz;
   slab.weightedZZ += weight * dz * dz;
   updateSeabed(column);
+  Level& level = levels_.at(levels_.index(p_map.x()), levels_.index(p_map.y()));
+  level.count += 1;
+  level.z += p_map.z();
+  level.zz += p_map.z() * p_map.z();
 }
 
 /// The seabed of a column is its lowest slab with enough points, and the one above it, which holds the other half of a
@@ -158,6 +163,22 @@ std::optional<SurfaceEvidence::Seabed> SurfaceEvidence::seabedAt(double x_m, dou
     }
   if (weight == 0) return std::nullopt;
   return Seabed{height / weight, std::sqrt(variance / weight)};
+}
+
+std::optional<SurfaceEvidence::Seabed> SurfaceEvidence::levelNear(double x_m, double y_m) const {
+  const std::int32_t ix = levels_.index(x_m), iy = levels_.index(y_m);
+  SparseGrid<Level>::Hint hint;
+  Level sum;
+  for (int dx = -1; dx <= 1; ++dx)
+    for (int dy = -1; dy <= 1; ++dy)
+      if (const Level* level = levels_.find(ix + dx, iy + dy, hint)) {
+        sum.count += level->count;
+        sum.z += level->z;
+        sum.zz += level->zz;
+      }
+  if (sum.count < kMinSeabedPoints) return std::nullopt;
+  const double mean = sum.z / sum.count;
+  return Seabed{mean, std::sqrt(std::max(0.0, sum.zz / sum.count - mean * mean))};
 }
 
 std::optional<SurfaceEvidence::Wall> SurfaceEvidence::wallNear(double x_m, double y_m) const {
