@@ -12,7 +12,7 @@ CSeabedSkyMap::CSeabedSkyMap() { resolver_.reset(options_.resolver); }
 
 CSeabedSkyMap::CSeabedSkyMap(const MapOptions& options) : options_(options) { resolver_.reset(options_.resolver); }
 
-CSeabedSkyMap::CSeabedSkyMap(const CSeabedSkyMap& other) : mrpt::maps::CMetricMap() { *this = other; }
+CSeabedSkyMap::CSeabedSkyMap(const CSeabedSkyMap& other) : CSeabedSkyMap(other.options_) { *this = other; }
 
 CSeabedSkyMap& CSeabedSkyMap::operator=(const CSeabedSkyMap& other) {
   if (this == &other) return *this;
@@ -192,11 +192,10 @@ void CSeabedSkyMap::forEachPoint(Layer layer, const std::function<void(const Map
 
 std::optional<mrpt::math::TBoundingBox> CSeabedSkyMap::boundingBox(Layer layer) const {
   if (pointCount(layer) == 0) return std::nullopt;
-  auto box = mrpt::math::TBoundingBox::PlusMinusInfinity();
-  forEachPoint(layer, [&box](const MapPoint& point) {
-    box.updateWithPoint({point.p_map.x(), point.p_map.y(), point.p_map.z()});
-  });
-  return box;
+  Eigen::AlignedBox3d box;
+  forEachPoint(layer, [&box](const MapPoint& point) { box.extend(point.p_map); });
+  return mrpt::math::TBoundingBox({box.min().x(), box.min().y(), box.min().z()},
+                                  {box.max().x(), box.max().y(), box.max().z()});
 }
 
 std::optional<mrpt::math::TBoundingBox> CSeabedSkyMap::boundingBox() const {
