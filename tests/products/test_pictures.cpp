@@ -110,6 +110,8 @@ TEST(PictureDrawing, RoundStepsAndTheirTexts) {
   EXPECT_EQ(stepText(12.345, 0.1), "12.3");
   EXPECT_EQ(stepText(12.345, 5), "12");
   EXPECT_EQ(stepText(-0.01, 0.1), "0.0");
+  EXPECT_EQ(ticks(-5, 11, 5), (std::vector<double>{-5, 0, 5, 10}));
+  EXPECT_TRUE(ticks(1, 4, 5).empty());
 }
 
 TEST(SurveyFrame, DiagonalPath_GivesItsDirectionMiddleAndExtent) {

@@ -21,8 +21,8 @@ Rgb ColourRamp::at(double value) const {
 
 MapColours::MapColours(double lidarLow_m, double lidarHigh_m, double sonarLow_m, double sonarHigh_m)
     : lidar(lidarLow_m, lidarHigh_m,
-            {{{94, 70, 58}}, {{158, 108, 72}}, {{212, 158, 96}}, {{236, 205, 145}}, {{246, 236, 208}}}),
+            {{{72, 52, 44}}, {{134, 84, 54}}, {{186, 122, 62}}, {{222, 164, 76}}, {{240, 202, 112}}}),
       sonar(sonarLow_m, sonarHigh_m,
-            {{{38, 38, 110}}, {{34, 84, 160}}, {{30, 136, 178}}, {{62, 184, 168}}, {{158, 222, 150}}}) {}
+            {{{40, 44, 126}}, {{36, 92, 172}}, {{32, 144, 184}}, {{70, 190, 170}}, {{160, 222, 150}}}) {}
 
 }  // namespace s2s::products

@@ -13,7 +13,7 @@ constexpr int kLeft_px = 70, kTop_px = 36, kRight_px = 24, kBottom_px = 110;
 
 /// Light from the north-west on a Lambert surface; a level seabed has brightness 1.
 double relief(const HeightGrid& grid, int column, int row) {
-  constexpr double kExaggeration = 3;
+  constexpr double kExaggeration = 2;
   const Eigen::Vector3d light = Eigen::Vector3d(-1, 1, 1.6).normalized();
   const auto height = [&](int c, int r) -> double {
     if (!grid.inside(c, r) || !grid.hasValue(c, r)) return grid.height_m[grid.index(column, row)];
@@ -50,11 +50,11 @@ struct GridPlace {
 void drawAxes(cv::Mat& image, const HeightGrid& grid, const GridPlace& place) {
   const double east = grid.west_m + grid.columns * grid.cell_m, north = grid.south_m + grid.rows * grid.cell_m;
   const double step_m = roundStep(110 / place.pxPerMetre);
-  for (double x = std::ceil(grid.west_m / step_m) * step_m; x <= east; x += step_m) {
+  for (const double x : ticks(grid.west_m, east, step_m)) {
     cv::line(image, {place.x(x), place.y(north)}, {place.x(x), place.bottom}, toBgr(kFaint), 1);
     drawText(image, stepText(x, step_m), place.x(x), place.bottom + 20, Align::Centre);
   }
-  for (double y = std::ceil(grid.south_m / step_m) * step_m; y <= north; y += step_m) {
+  for (const double y : ticks(grid.south_m, north, step_m)) {
     cv::line(image, {place.left, place.y(y)}, {place.x(east), place.y(y)}, toBgr(kFaint), 1);
     drawText(image, stepText(y, step_m), place.left - 8, place.y(y) + 5, Align::Right);
   }

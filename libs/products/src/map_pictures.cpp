@@ -15,7 +15,7 @@ constexpr int kLegend_px = 92;         // band below the picture
 constexpr double kTurn_rad = 0.45;     // of the oblique view against the path's direction
 constexpr double kDescent_rad = 0.72;  // of its line of sight
 constexpr double kCutBehindPath_m = 1.5;
-constexpr double kLidarSize_m = 0.08, kSonarSize_m = 0.25;  // sonar points are sparser
+constexpr double kLidarSize_m = 0.12, kSonarSize_m = 0.25;  // sonar points are sparser
 constexpr double kLargestExaggeration = 8;
 constexpr int kSectionBorder_px = 70;
 
@@ -70,7 +70,8 @@ struct MapPictures::Implementation {
         options(o),
         bottom_m(c.statistics.heightQuantile_m(kSonarLayers, 0.005)),
         top_m(c.statistics.heightQuantile_m({map::Layer::Lidar}, 0.995)),
-        colours(c.waterHeight_m, c.statistics.heightQuantile_m({map::Layer::Lidar}, 0.97), bottom_m, c.waterHeight_m),
+        colours(c.waterHeight_m, c.statistics.heightQuantile_m({map::Layer::Lidar}, 0.97), bottom_m,
+                std::min(c.waterHeight_m, c.statistics.heightQuantile_m(kSonarLayers, 0.98))),
         low_m(c.frame.low_m.array() - o.margin_m),
         high_m(c.frame.high_m.array() + o.margin_m),
         obliqueView(makeOblique(), kPaper, SplatRenderer::Shading::EyeDome),
@@ -145,7 +146,7 @@ void MapPictures::add(const map::MapPoint& point) {
   if (!lidar || place.y() >= frame.low_m.y() - kCutBehindPath_m) my.obliqueView.add(point.p_map, colour, size_m);
   my.topView.add(point.p_map, colour, size_m);
   const double half_m = 0.5 * my.options.sectionThickness_m;
-  const auto dot_m = [&](const SplatRenderer& view) { return (lidar ? 1.0 : 1.5) / view.view().pxPerMetreX; };
+  const auto dot_m = [&](const SplatRenderer& view) { return (lidar ? 1.3 : 1.6) / view.view().pxPerMetreX; };
   if (std::abs(place.y()) <= half_m) my.longView.add(point.p_map, layerColour(point.layer), dot_m(my.longView));
   if (std::abs(place.x() - my.context.crossSectionStation_m) <= half_m)
     my.crossView.add(point.p_map, layerColour(point.layer), dot_m(my.crossView));
@@ -190,7 +191,7 @@ void MapPictures::Implementation::drawHeightAxis(cv::Mat& image, const ParallelV
   const double step_m = roundStep(std::max(1e-3, 2 * 40 / view.pxPerMetreY));
   const int left = kSectionBorder_px, right = image.cols - kSectionBorder_px;
   const double low = sectionBottom() - context.waterHeight_m, high = sectionTop() - context.waterHeight_m;
-  for (double height = std::ceil(low / step_m) * step_m; height <= high; height += step_m) {
+  for (const double height : ticks(low, high, step_m)) {
     const Eigen::Vector3d place =
         view.centre_m + Eigen::Vector3d(0, 0, context.waterHeight_m + height - view.centre_m.z());
     const int y = static_cast<int>(std::lround(view.project(place).y()));
@@ -210,7 +211,7 @@ void MapPictures::Implementation::drawLengthAxis(cv::Mat& image, const ParallelV
   const Eigen::Vector3d middle = context.frame.toMap(0, 0, 0);
   const double half_m = 0.5 * (view.width_px - 2 * kSectionBorder_px) / view.pxPerMetreX;
   const double centre_m = right.dot(view.centre_m - middle);
-  for (double at = std::ceil((centre_m - half_m) / step_m) * step_m; at <= centre_m + half_m; at += step_m) {
+  for (const double at : ticks(centre_m - half_m, centre_m + half_m, step_m)) {
     const int x = static_cast<int>(std::lround(view.project(middle + at * right).x()));
     cv::line(image, {x, top}, {x, bottom}, toBgr(kFaint), 1);
     drawText(image, stepText(at, step_m), x, bottom + 18, Align::Centre);
@@ -233,7 +234,7 @@ cv::Mat MapPictures::Implementation::section(const SplatRenderer& renderer, cons
     std::replace(name.begin(), name.end(), '_', ' ');
     x = drawKey(image, layerColour(layer), name, x, y);
   }
-  x = drawKey(image, kWaterColour, "water surface", x, y);
+  drawKey(image, kWaterColour, "water surface", x, y);
   const double exaggeration = view.pxPerMetreY / view.pxPerMetreX;
   std::string text = title + ", " + stepText(options.sectionThickness_m, 0.1) + " m thick";
   if (exaggeration > 1.05) text += ", heights x " + stepText(exaggeration, 0.1);

@@ -99,7 +99,7 @@ void SceneBuilder::write(const std::string& path, const core::Trajectory& trajec
                          double waterHeight_m) {
   mrpt::opengl::COpenGLScene scene;
   for (const auto& cloud : clouds_)
-    if (cloud->size() > 0) scene.insert(cloud);
+    if (!cloud->empty()) scene.insert(cloud);
   scene.insert(pathLines(trajectory));
   if (!keyframes.empty()) scene.insert(dots(keyframes));
   scene.insert(waterGrid(trajectory, waterHeight_m));

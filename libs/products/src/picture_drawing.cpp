@@ -64,6 +64,13 @@ double roundStep(double value) {
   return decade;
 }
 
+std::vector<double> ticks(double low, double high, double step) {
+  std::vector<double> out;
+  for (auto i = static_cast<long long>(std::ceil(low / step)); static_cast<double>(i) * step <= high; ++i)
+    out.push_back(static_cast<double>(i) * step);
+  return out;
+}
+
 std::string stepText(double value, double step) {
   const int decimals = step >= 1 ? 0 : static_cast<int>(std::ceil(-std::log10(step)));
   const double unit = std::pow(10.0, -decimals);

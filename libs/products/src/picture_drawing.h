@@ -33,6 +33,9 @@ int drawKey(cv::Mat& image, Rgb colour, const std::string& text, int x, int y);
 /// 1, 2 or 5 times a power of ten, the largest not above `value`.
 double roundStep(double value);
 
+/// The multiples of `step` within [low, high].
+std::vector<double> ticks(double low, double high, double step);
+
 /// "0.5", "12": no more decimals than a step of that size needs.
 std::string stepText(double value, double step);
 

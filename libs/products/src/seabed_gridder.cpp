@@ -44,6 +44,7 @@ std::size_t quantileBin(const Bins& bins, double quantile) {
 template <class Bins>
 double medianDeviation(const Bins& bins, double centre) {
   std::vector<std::pair<double, double>> deviations;
+  deviations.reserve(bins.size());
   for (const auto& bin : bins) deviations.emplace_back(std::abs(bin.weightedHeight / bin.weight - centre), bin.weight);
   std::sort(deviations.begin(), deviations.end());
   const double half = 0.5 * totalWeight(bins);
