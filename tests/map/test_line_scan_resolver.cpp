@@ -200,9 +200,10 @@ TEST(LineScanResolver, SeabedMetJustBeforeAWall_IsNotPulledOntoTheWall) {
   std::vector<double> errors;
   for (const MapPoint& p : pointsOf(map, Layer::LineHorizontal))
     errors.push_back(std::min(std::abs(p.p_map.z() - kSeabed_m), std::abs(p.p_map.y() - kWall_m)));
-  // Noise of 1 cm, and the coarseness of arc steps where the wall is met.
-  EXPECT_LT(quantileOfSize(errors, 0.95), 0.05);
-  EXPECT_LT(quantileOfSize(errors, 1.0), 0.5);
+  // Noise of 1 cm for nearly all. At the foot of the wall both explain an echo within some centimetres; an arc that
+  // ends short of the wall by the gate of three standard deviations, 17 cm, must not count as touching it.
+  EXPECT_LT(quantileOfSize(errors, 0.98), 0.04);
+  EXPECT_LT(quantileOfSize(errors, 1.0), 0.12);
 }
 
 TEST(LineScanResolver, SeabedKnownAndLowerEdgeSilent_ReturnIsPutWhereItsArcMeetsTheSeabed) {
