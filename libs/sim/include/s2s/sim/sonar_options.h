@@ -21,7 +21,7 @@ enum class ElevationPattern {
 /// What electronics and the other sonar add; levels are in dB over the receiver's noise.
 struct SonarArtefacts {
   bool rowLeak = true;      ///< a share of each row's power appears on all its beams: side-lobe floor, coupling
-  double rowLeak_db = -32;  ///< of the row's mean
+  double rowLeak_db = -38;  ///< of the row's mean
   bool ringDown = true;     ///< the transducer's own ringing
   double ringDown_db = 55, ringDownDecay_dbPerM = 120;
   bool banding = true;  ///< gain steps between groups of rows
