@@ -46,6 +46,7 @@ TEST_F(TruthReportTest, MapMadeFromTheTruth_HasNoErrors) {
   // Files hold positions to 1 nm and quaternions to about as many decimals.
   EXPECT_LT(report.trajectories[0].absolute.translation_m.max, 1e-7);
   EXPECT_LT(report.trajectories[0].absolute.rotation_rad.max, 1e-6);
+  EXPECT_LT(report.trajectories[0].rotationByPoses_rad.max, 1e-6);
   EXPECT_LT(report.trajectories[0].relative[0].error.translation_m.max, 1e-7);
   EXPECT_LT((report.T_world_map.matrix() - SampleSurvey::T_map_world().inverse().matrix()).norm(), 1e-6);
   // 1e-6 of attitude over the 30 m of the scene.

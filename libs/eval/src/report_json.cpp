@@ -31,6 +31,7 @@ Json toJson(const TrajectoryReport& t) {
                {"path_m", t.path_m},
                {"ate_m", toJson(t.absolute.translation_m)},
                {"ape_rotation_deg", toJson(t.absolute.rotation_rad, kDegPerRad)},
+               {"rotation_pose_aligned_deg", toJson(t.rotationByPoses_rad, kDegPerRad)},
                {"rpe", Json::array()},
                {"segments", Json::array()}};
   for (const auto& r : t.relative)

@@ -23,7 +23,7 @@ void addRelative(const std::string& name, const RelativeErrorOver& r, TextTable&
 
 std::string trajectoryText(const std::vector<TrajectoryReport>& trajectories) {
   TextTable absolute({"trajectory", "poses", "pairs", "path [m]", "ATE rmse [m]", "mean [m]", "median [m]", "max [m]",
-                      "rotation rmse [deg]"});
+                      "rotation rmse [deg]", "aligned by poses [deg]"});
   TextTable relative({"relative error (RPE)", "over", "pairs", "translation rmse [m]", "mean [m]",
                       "rotation rmse [deg]", "mean [deg]"});
   TextTable segments(
@@ -32,7 +32,8 @@ std::string trajectoryText(const std::vector<TrajectoryReport>& trajectories) {
     const Summary& e = t.absolute.translation_m;
     absolute.addRow({t.name, std::to_string(t.poses), std::to_string(t.pairs), fixed(t.path_m, 1), fixed(e.rmse, 4),
                      fixed(e.mean, 4), fixed(e.median, 4), fixed(e.max, 4),
-                     fixed(kDegPerRad * t.absolute.rotation_rad.rmse, 3)});
+                     fixed(kDegPerRad * t.absolute.rotation_rad.rmse, 3),
+                     fixed(kDegPerRad * t.rotationByPoses_rad.rmse, 3)});
     for (const auto& r : t.relative) addRelative(t.name, r, relative);
     for (const auto& s : t.segments) {
       if (s.count == 0)

@@ -37,6 +37,7 @@ TrajectoryReport reportTrajectory(const std::string& name, const core::Trajector
   report.pairs = pairs.size();
   report.path_m = truePath_m(pairs);
   report.absolute = absoluteError(pairs, TrajectoryAlignment::Positions);
+  report.rotationByPoses_rad = absoluteError(pairs, TrajectoryAlignment::Poses).rotation_rad;
   report.relative.push_back({1, "frames", relativeErrorOverFrames(pairs, 1)});
   for (const double distance_m : options.rpeDistances_m)
     report.relative.push_back({distance_m, "m", relativeErrorOverDistance(pairs, distance_m)});

@@ -33,9 +33,10 @@ struct RelativeErrorOver {
 struct TrajectoryReport {
   std::string name;  ///< file name
   std::size_t poses = 0;
-  std::size_t pairs = 0;  ///< poses that have a true pose at their time
-  double path_m = 0;      ///< true path between the first and the last pair
-  AbsoluteError absolute;
+  std::size_t pairs = 0;        ///< poses that have a true pose at their time
+  double path_m = 0;            ///< true path between the first and the last pair
+  AbsoluteError absolute;       ///< aligned by positions, as evo does
+  Summary rotationByPoses_rad;  ///< rotation error after an alignment by poses, see TrajectoryAlignment
   std::vector<RelativeErrorOver> relative;
   std::vector<SegmentError> segments;
 };
