@@ -32,7 +32,9 @@ void addPlane(std::mt19937& random, double noise_m, int count, const Add& add) {
   std::normal_distribution<double> noise(0, noise_m);
   for (int i = 0; i < count; ++i) {
     const double x = ux(random), y = uy(random);
-    add(sounding(x, y, plane(x, y) + noise(random), 0.05));
+    auto p = sounding(x, y, plane(x, y) + noise(random), 0.05);
+    p.time = i;  // pings of one sounding
+    add(p);
   }
 }
 
@@ -68,8 +70,11 @@ TEST(SeabedGridder, TiltedPlane_IsFoundAtTheCellCentres) {
   const auto [largest, rms] = errorsToPlane(grid);
   EXPECT_LT(largest, 0.022);
   EXPECT_LT(rms, 0.0065);
-  // The soundings' own sigma (5 cm) is not divided by their number, their scatter is.
-  EXPECT_NEAR(grid.sigma_m[grid.index(10, 8)], 0.05, 0.001);
+  // Scatter of a single ping: noise, and the slope's even spread over the cell, 0.5 m times 0.1 and 0.05 over sqrt(12).
+  double sum = 0;
+  for (const float sigma : grid.sigma_m) sum += sigma;
+  // The mean of 320 robust estimates from 200 each; 1 mm for the bins and the estimator's small-sample bias.
+  EXPECT_NEAR(sum / 320, std::sqrt(0.05 * 0.05 + (0.05 * 0.05 + 0.025 * 0.025) / 12), 0.001);
 }
 
 TEST(SeabedGridder, FalseEchoes_DoNotMoveIt) {
@@ -139,8 +144,34 @@ TEST(SeabedGridder, PreciseSoundings_OutweighUncertainOnes) {
   ASSERT_EQ(grid.columns, 1);
   EXPECT_NEAR(grid.height_m[0], -3.0, 1e-6);  // weight 10 * 400 against 100 * 4
   EXPECT_EQ(grid.count[0], 110U);
-  // sqrt(n / sum of weights) = sqrt(110 / 4400); the median deviation is zero.
-  EXPECT_NEAR(grid.sigma_m[0], std::sqrt(110.0 / 4400.0), 1e-6);
+  // All of one ping and without scatter: claimed variance n / sum of weights, halved.
+  EXPECT_NEAR(grid.sigma_m[0], std::sqrt(110.0 / 4400.0 / 2), 1e-6);
+}
+
+TEST(SeabedGridder, Sigma_FollowsTheScatterOfManyPingsRatherThanTheirClaims) {
+  std::mt19937 random(9);
+  std::normal_distribution<double> noise(0, 0.05);
+  SeabedGridder gridder({}, kWater_m);
+  constexpr int kPings = 400;
+  for (int i = 0; i < kPings; ++i) {
+    auto modest = sounding(0.1, 0.1, -3 + noise(random), 1.0), boastful = sounding(5.1, 0.1, -3 + noise(random), 0.001);
+    modest.time = boastful.time = i;
+    gridder.add(modest);
+    gridder.add(boastful);
+  }
+  const HeightGrid grid = gridder.grid();
+  ASSERT_EQ(grid.columns, 11);
+  // (1 m)² counts as one ping of 401, the 400 others scatter by 5 cm. A MAD of 400 is good to 6 %, three sigma of it.
+  const double modest = std::sqrt((1.0 + kPings * 0.0025) / (1 + kPings));
+  EXPECT_NEAR(grid.sigma_m[0], modest, 0.09 * modest);
+  EXPECT_NEAR(grid.sigma_m[10], 0.05, 0.18 * 0.05);
+}
+
+TEST(SeabedGridder, SoundingsOfOnePing_AreNoRepetition) {
+  SeabedGridder gridder({}, kWater_m);
+  for (int i = 0; i < 100; ++i) gridder.add(sounding(0.1, 0.1, -3.0, 1.0));
+  // No scatter, but one look: (1 + 1 * 0) / 2.
+  EXPECT_NEAR(gridder.grid().sigma_m[0], std::sqrt(0.5), 1e-6);
 }
 
 TEST(SeabedGridder, LidarShallowAndBrokenPoints_AreLeftOutAndCounted) {

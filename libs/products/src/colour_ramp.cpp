@@ -21,7 +21,7 @@ Rgb ColourRamp::at(double value) const {
 
 MapColours::MapColours(double lidarLow_m, double lidarHigh_m, double sonarLow_m, double sonarHigh_m)
     : lidar(lidarLow_m, lidarHigh_m,
-            {{{72, 52, 44}}, {{134, 84, 54}}, {{186, 122, 62}}, {{222, 164, 76}}, {{240, 202, 112}}}),
+            {{{104, 74, 58}}, {{150, 96, 60}}, {{186, 122, 62}}, {{222, 164, 76}}, {{240, 202, 112}}}),
       sonar(sonarLow_m, sonarHigh_m,
             {{{40, 44, 126}}, {{36, 92, 172}}, {{32, 144, 184}}, {{70, 190, 170}}, {{160, 222, 150}}}) {}
 

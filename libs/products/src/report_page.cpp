@@ -226,9 +226,9 @@ water surface, whose height in the map frame is stated above.</p>
 <p>Each point carries a <b>sigma</b>, the standard deviation of its position along its most uncertain axis. A line-scan
 point knows range and bearing well and elevation only within the sonar's aperture, and its sigma says so.</p>
 <p>A cell of the <b>seabed grid</b> holds the median of its soundings weighted by their precision. Where a cell spans more
-than seabed, as beside a quay wall, only its lowest dense layer counts. The cell's sigma joins the scatter about the median,
-divided by the number of soundings, with the soundings' own variance, which is not: errors of pose and mounting are common to
-neighbouring soundings and do not average out.</p>
+than seabed, as beside a quay wall, only its lowest dense layer counts. The cell's sigma is that of a single ping: mostly the
+scatter of the pings about the median, and, the fewer they are, what they claim of themselves. It is not divided by their number:
+errors of pose and mounting are common to neighbouring pings and do not average out.</p>
 <p>These figures come from the survey's own data. They are no comparison with independent control, and no IHO order is
 claimed from them.</p></section>
 )html";

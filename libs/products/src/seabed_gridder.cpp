@@ -21,16 +21,16 @@ std::uint64_t cellKey(std::int32_t column, std::int32_t row) {
 std::int32_t columnOf(std::uint64_t key) { return static_cast<std::int32_t>(key >> 32); }
 std::int32_t rowOf(std::uint64_t key) { return static_cast<std::int32_t>(key & 0xffffffffU); }
 
-template <class Bins>
-double totalWeight(const Bins& bins) {
+template <class BinList>
+double totalWeight(const BinList& bins) {
   double sum = 0;
   for (const auto& bin : bins) sum += bin.weight;
   return sum;
 }
 
 /// Index of the bin in which the cumulative weight passes the share `quantile`.
-template <class Bins>
-std::size_t quantileBin(const Bins& bins, double quantile) {
+template <class BinList>
+std::size_t quantileBin(const BinList& bins, double quantile) {
   const double target = quantile * totalWeight(bins);
   double sum = 0;
   for (std::size_t i = 0; i < bins.size(); ++i) {
@@ -41,8 +41,8 @@ std::size_t quantileBin(const Bins& bins, double quantile) {
 }
 
 /// Weighted median of the absolute deviations of the bins' mean heights.
-template <class Bins>
-double medianDeviation(const Bins& bins, double centre) {
+template <class BinList>
+double medianDeviation(const BinList& bins, double centre) {
   std::vector<std::pair<double, double>> deviations;
   deviations.reserve(bins.size());
   for (const auto& bin : bins) deviations.emplace_back(std::abs(bin.weightedHeight / bin.weight - centre), bin.weight);
@@ -80,15 +80,17 @@ void SeabedGridder::add(const map::MapPoint& point) {
   const int height_cm = static_cast<int>(std::floor(cellAndBin.z()));
   Cell& cell = cells_[cellKey(static_cast<std::int32_t>(std::floor(cellAndBin.x())),
                               static_cast<std::int32_t>(std::floor(cellAndBin.y())))];
-  auto bin = std::lower_bound(cell.begin(), cell.end(), height_cm,
+  if (cell.pings == 0 || cell.lastTime != point.time) ++cell.pings;
+  cell.lastTime = point.time;
+  auto bin = std::lower_bound(cell.bins.begin(), cell.bins.end(), height_cm,
                               [](const Bin& b, int height) { return b.height_cm < height; });
-  if (bin == cell.end() || bin->height_cm != height_cm) bin = cell.insert(bin, Bin{height_cm});
+  if (bin == cell.bins.end() || bin->height_cm != height_cm) bin = cell.bins.insert(bin, Bin{height_cm});
   ++bin->count;
   bin->weight += weight;
   bin->weightedHeight += weight * point.p_map.z();
 }
 
-SeabedGridder::Cell SeabedGridder::seabedLayer(const Cell& cell) const {
+SeabedGridder::Bins SeabedGridder::seabedLayer(const Bins& cell) const {
   const int window_cm = static_cast<int>(std::lround(options_.window_m * kBinsPerMetre));
   // Weight of the layer that begins at each bin, by two running indices.
   std::vector<double> layerWeight(cell.size());
@@ -107,32 +109,34 @@ SeabedGridder::Cell SeabedGridder::seabedLayer(const Cell& cell) const {
   std::size_t best = lowest;
   for (std::size_t i = lowest; i < cell.size() && cell[i].height_cm < cell[lowest].height_cm + window_cm; ++i)
     if (layerWeight[i] > layerWeight[best]) best = i;
-  Cell layer;
+  Bins layer;
   for (std::size_t i = best; i < cell.size() && cell[i].height_cm < cell[best].height_cm + window_cm; ++i)
     layer.push_back(cell[i]);
   return layer;
 }
 
 SeabedGridder::Verdict SeabedGridder::estimate(const Cell& cell, Estimate& result) const {
-  const auto countOf = [](const Cell& bins) {
+  const auto countOf = [](const Bins& bins) {
     std::uint32_t sum = 0;
     for (const auto& bin : bins) sum += bin.count;
     return sum;
   };
-  if (countOf(cell) < static_cast<std::uint32_t>(options_.minPoints)) return Verdict::FewPoints;
-  const int spread_cm = cell[quantileBin(cell, 0.95)].height_cm - cell[quantileBin(cell, 0.05)].height_cm;
-  Cell layer = cell;
+  if (countOf(cell.bins) < static_cast<std::uint32_t>(options_.minPoints)) return Verdict::FewPoints;
+  const int spread_cm =
+      cell.bins[quantileBin(cell.bins, 0.95)].height_cm - cell.bins[quantileBin(cell.bins, 0.05)].height_cm;
+  Bins layer = cell.bins;
   if (spread_cm > options_.flatSpread_m * kBinsPerMetre) {
-    layer = seabedLayer(cell);
+    layer = seabedLayer(cell.bins);
     result.doubtful = true;
-    if (totalWeight(layer) < options_.minSeabedShare * totalWeight(cell)) return Verdict::Wall;
+    if (totalWeight(layer) < options_.minSeabedShare * totalWeight(cell.bins)) return Verdict::Wall;
   }
   result.count = countOf(layer);
   if (result.count < static_cast<std::uint32_t>(options_.minPoints)) return Verdict::FewPoints;
   const Bin& middle = layer[quantileBin(layer, 0.5)];
   result.height_m = middle.weightedHeight / middle.weight;
   const double scatter_m = kMadToSigma * medianDeviation(layer, result.height_m);
-  result.sigma_m = std::sqrt(scatter_m * scatter_m / result.count + result.count / totalWeight(layer));
+  const double claimed = result.count / totalWeight(layer), pings = cell.pings;
+  result.sigma_m = std::sqrt((claimed + pings * scatter_m * scatter_m) / (1 + pings));
   return Verdict::Seabed;
 }
 

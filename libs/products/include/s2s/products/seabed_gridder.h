@@ -41,9 +41,12 @@ struct SeabedGridStatistics {
 /// soundings. The height is the median weighted by 1/sigma². Where a cell spans more than `flatSpread_m`, as at a quay
 /// wall, it is the weighted median inside the lowest layer of `window_m` that is at least half as dense as the densest:
 /// neither the wall above nor a few false echoes below move it; it must then agree with its neighbours more closely.
-/// The stated sigma is sqrt(s²/n + v): s the scatter about the median (1.4826 MAD), n the soundings, v the weighted
-/// mean of the soundings' own variances. v is not divided by n, since mounting, pose and elevation errors are common to
-/// neighbouring soundings.
+///
+/// The stated sigma is sqrt((v + m s²) / (1 + m)): v the weighted mean of the soundings' own variances, s the scatter
+/// about the median (1.4826 MAD), m the pings in the cell. So what the soundings claim counts as one ping, and how far
+/// the pings agree decides the more of them there are: an unresolved line-scan claims its whole arc, though the seabed
+/// it shows may repeat to centimetres, and a precise one may be worse than it claims. It is a single ping's sigma and
+/// not divided by their number, since mounting, pose and elevation errors are common to neighbouring pings.
 class SeabedGridder {
  public:
   /// @param waterHeight_m height of the water surface in the map frame
@@ -63,7 +66,12 @@ class SeabedGridder {
     double weight = 0;          ///< sum of 1/sigma²
     double weightedHeight = 0;  ///< sum of height/sigma²
   };
-  using Cell = std::vector<Bin>;  ///< in order of height
+  using Bins = std::vector<Bin>;  ///< in order of height
+  struct Cell {
+    Bins bins;
+    std::uint32_t pings = 0;  ///< changes of the soundings' time: they come ping by ping
+    core::TimeNs lastTime = 0;
+  };
   struct Estimate {
     double height_m = 0, sigma_m = 0;
     std::uint32_t count = 0;
@@ -72,7 +80,7 @@ class SeabedGridder {
   enum class Verdict { Seabed, FewPoints, Wall };
 
   Verdict estimate(const Cell& cell, Estimate& result) const;
-  Cell seabedLayer(const Cell& cell) const;
+  Bins seabedLayer(const Bins& cell) const;
   void removeSteps(HeightGrid& grid, const std::vector<bool>& doubtful);
 
   SeabedGridOptions options_;
