@@ -3,6 +3,7 @@
 # off, maps every one and prints the errors against the truth, one line a run.
 # Usage: share/ablation.sh [--scene INI] [--experiment N] [--duration SECONDS] [--output DIR]
 set -euo pipefail
+export LC_ALL=C  # numbers with a decimal point
 root=$(cd "$(dirname "$0")/.." && pwd)
 bin="$root/build/release/bin"
 scene="$root/share/scenes/canal.ini"
@@ -49,7 +50,7 @@ value() {
         if (full == want) { v = $0; sub(/^[^:]*: */, "", v); sub(/,$/, "", v); print v; exit } } }' "$1"
 }
 
-printf '%-26s %10s %14s %14s %14s %14s\n' run "ATE [m]" "lidar med [m]" "stereo med [m]" "seabed bias" "seabed RMSE"
+printf '%-26s %14s %14s %14s %14s %14s\n' run "ATE [m]" "lidar med [m]" "stereo med [m]" "seabed bias" "seabed RMSE"
 for run in "${runs[@]}"; do
   read -r -a words <<<"$run"
   name=${words[0]}
@@ -57,14 +58,20 @@ for run in "${runs[@]}"; do
   for setting in "${words[@]:1}"; do settings+=(--set "$setting"); done
   dir="$output/$name"
   mkdir -p "$dir"
-  "$bin/simulate-survey" --scene "$scene" --experiment "$experiment" --duration "$duration" --output "$dir/sim" \
-    "${settings[@]}" >"$dir/log.txt" 2>&1
-  "$bin/seabed-sky-map" "$dir/sim/survey.rawlog" --config "$dir/sim/survey.ini" --output "$dir/map" >>"$dir/log.txt" 2>&1
-  "$bin/seabed-sky-eval" truth "$dir/map" "$dir/sim/truth" --json "$dir/truth.json" >>"$dir/log.txt" 2>&1
-  printf '%-26s %10.4f %14.4f %14.4f %14.4f %14.4f\n' "$name" \
-    "$(value "$dir/truth.json" trajectory.ate_m.rmse)" "$(value "$dir/truth.json" layers.lidar.distance_m.median)" \
-    "$(value "$dir/truth.json" layers.stereo.distance_m.median)" "$(value "$dir/truth.json" seabed.bias_m)" \
-    "$(value "$dir/truth.json" seabed.rmse_m)"
+  if ! { "$bin/simulate-survey" --scene "$scene" --experiment "$experiment" --duration "$duration" \
+           --output "$dir/sim" "${settings[@]}" &&
+         "$bin/seabed-sky-map" "$dir/sim/survey.rawlog" --config "$dir/sim/survey.ini" --output "$dir/map" &&
+         "$bin/seabed-sky-eval" truth "$dir/map" "$dir/sim/truth" --json "$dir/truth.json"; } >"$dir/log.txt" 2>&1; then
+    printf '%-26s failed, see %s\n' "$name" "$dir/log.txt"
+    continue
+  fi
+  printf '%-26s' "$name"
+  for key in trajectory.ate_m.rmse layers.lidar.distance_m.median layers.stereo.distance_m.median seabed.bias_m \
+             seabed.rmse_m; do
+    number=$(value "$dir/truth.json" "$key")
+    case "$number" in "" | null) printf ' %14s' - ;; *) printf ' %14.4f' "$number" ;; esac
+  done
+  printf '\n'
   rm -f "$dir/sim/survey.rawlog"
 done
 echo "Logs and reports: $output"

@@ -63,9 +63,11 @@ double sheetPileRelief_m(const WallOptions& o, double s) {
 std::vector<double> samplesAlong(const WallOptions& o, double length) {
   std::vector<double> samples;
   if (o.style == WallStyle::SheetPile) {
-    for (double base = 0; base < length; base += o.pileLength_m)
-      for (const double u : {0.0, 0.3, 0.5, 0.8})
-        if (base + u * o.pileLength_m < length) samples.push_back(base + u * o.pileLength_m);
+    for (int wave = 0; wave * o.pileLength_m < length; ++wave)
+      for (const double u : {0.0, 0.3, 0.5, 0.8}) {
+        const double place = (wave + u) * o.pileLength_m;
+        if (place < length) samples.push_back(place);
+      }
     samples.push_back(length);
     return samples;
   }

@@ -17,8 +17,8 @@ constexpr double kSlice_s = 1.0;
 double pathLength_m(const VesselMotion& motion, double duration_s) {
   double length = 0;
   Eigen::Vector3d last = motion.pose(0).translation();
-  for (double t = 0.1; t <= duration_s; t += 0.1) {
-    const Eigen::Vector3d p = motion.pose(t).translation();
+  for (int i = 1; 0.1 * i <= duration_s; ++i) {
+    const Eigen::Vector3d p = motion.pose(0.1 * i).translation();
     length += (p - last).head<2>().norm();
     last = p;
   }
@@ -176,7 +176,8 @@ SimulationSummary SurveySimulator::run(const SimulationSinks& sinks) const {
   summary.length_m = pathLength_m(motion_, duration_s_);
   Models models(scene_, options_);
   const std::vector<Sensor> all = sensors(models, sinks, summary);
-  for (double from = 0; from < duration_s_; from += kSlice_s) {
+  for (int slice = 0; slice * kSlice_s < duration_s_; ++slice) {
+    const double from = slice * kSlice_s;
     const double to = std::min(from + kSlice_s, duration_s_);
     for (const Record& r : simulateSlice(all, from, to)) {
       ++*r.sensor->count;

@@ -92,7 +92,7 @@ void writeExtrinsics(const std::string& path, const SimulationOptions& o) {
 void writeSeabedGrid(const std::string& path, const Scene& scene, const VesselMotion& motion, double duration_s) {
   constexpr double kCell_m = 0.25, kMargin_m = 12;
   Eigen::AlignedBox2d box;
-  for (double t = 0; t <= duration_s; t += 0.5) box.extend(Eigen::Vector2d(motion.pose(t).translation().head<2>()));
+  for (int i = 0; 0.5 * i <= duration_s; ++i) box.extend(Eigen::Vector2d(motion.pose(0.5 * i).translation().head<2>()));
   const Eigen::Vector2d min = ((box.min().array() - kMargin_m) / kCell_m).floor() * kCell_m;
   const Eigen::Vector2d max = ((box.max().array() + kMargin_m) / kCell_m).ceil() * kCell_m;
   const auto columns = static_cast<int>(std::lround((max.x() - min.x()) / kCell_m));
