@@ -40,12 +40,20 @@ cv::Point rounded(const Eigen::Vector2d& rowColumn) {
   return {static_cast<int>(std::lround(rowColumn.y())), static_cast<int>(std::lround(rowColumn.x()))};
 }
 
+/// 1, 2 or 5 times a power of ten that gives four to ten rings.
+double ringStep_m(double maxRange_m) {
+  const double decade = std::pow(10.0, std::floor(std::log10(std::max(1e-3, maxRange_m / 4))));
+  const double share = maxRange_m / 4 / decade;
+  return decade * (share >= 5 ? 5 : share >= 2 ? 2 : 1);
+}
+
 void drawGrid(cv::Mat& picture, const sonar::PingGeometry& geometry, const sonar::CartesianGrid& grid) {
   const auto at = [&](double range_m, double bearing_rad) {
     return rounded(grid.pixelOf({range_m * std::cos(bearing_rad), range_m * std::sin(bearing_rad)}));
   };
   const double low = geometry.minBearing_rad(), high = geometry.maxBearing_rad();
-  for (double range_m = 2; range_m <= geometry.maxRange_m() + 1e-6; range_m += 2) {
+  const double step_m = ringStep_m(geometry.maxRange_m());
+  for (double range_m = step_m; range_m <= geometry.maxRange_m() + 1e-6; range_m += step_m) {
     for (double b = low; b < high; b += kDeg)
       cv::line(picture, at(range_m, b), at(range_m, std::min(b + kDeg, high)), kGridColor, 1, cv::LINE_AA);
     drawText(picture, cv::format("%g m", range_m), at(range_m, high) + cv::Point(3, 12));

@@ -19,7 +19,7 @@ struct PingView {
 /// Range bins over beams, as the device gives them. Float images are scaled by their maximum.
 PingView polarView(const cv::Mat& image, const sonar::PingGeometry& geometry);
 
-/// The imaging plane to scale, with range rings every 2 m and bearings every 15 degrees.
+/// The imaging plane to scale, with range rings and bearings every 15 degrees.
 PingView cartesianView(const cv::Mat& image, const sonar::PingGeometry& geometry);
 
 /// A colour of its own for each small number.

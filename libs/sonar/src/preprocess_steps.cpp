@@ -69,7 +69,8 @@ Histogram countClasses(const cv::Mat& image, double maximum) {
   Histogram histogram{};
   const float scale = maximum > 0 ? static_cast<float>(255.999 / maximum) : 0.0f;
   const float* pixels = image.ptr<float>();
-  for (std::size_t i = 0; i < image.total(); ++i)
+  const std::size_t count = image.total();
+  for (std::size_t i = 0; i < count; ++i)
     ++histogram[static_cast<std::size_t>(std::clamp(pixels[i] * scale, 0.0f, 255.0f))];
   return histogram;
 }
@@ -166,15 +167,16 @@ double otsuThreshold(const cv::Mat& image) {
 }
 
 void clearUpTo(cv::Mat& image, double threshold) {
+  const std::size_t count = image.total();
   if (image.depth() == CV_8U) {
     const auto limit = static_cast<std::uint8_t>(std::clamp(std::floor(threshold), 0.0, 255.0));
     auto* pixels = image.ptr<std::uint8_t>();
-    for (std::size_t i = 0; i < image.total(); ++i) pixels[i] = pixels[i] > limit ? pixels[i] : 0;
+    for (std::size_t i = 0; i < count; ++i) pixels[i] = pixels[i] > limit ? pixels[i] : 0;
     return;
   }
   auto* pixels = image.ptr<float>();
   const auto limit = static_cast<float>(threshold);
-  for (std::size_t i = 0; i < image.total(); ++i) pixels[i] = pixels[i] > limit ? pixels[i] : 0.0f;
+  for (std::size_t i = 0; i < count; ++i) pixels[i] = pixels[i] > limit ? pixels[i] : 0.0f;
 }
 
 void normaliseTo8Bit(cv::Mat& image, double quantile) {
@@ -187,7 +189,8 @@ void normaliseTo8Bit(cv::Mat& image, double quantile) {
     for (std::size_t level = 0; level < 256; ++level)
       table[level] = cv::saturate_cast<std::uint8_t>((static_cast<double>(level) - minimum) * scale);
     auto* pixels = image.ptr<std::uint8_t>();
-    for (std::size_t i = 0; i < image.total(); ++i) pixels[i] = table[pixels[i]];
+    const std::size_t count = image.total();
+    for (std::size_t i = 0; i < count; ++i) pixels[i] = table[pixels[i]];
     return;
   }
   cv::Mat out;
