@@ -13,6 +13,7 @@ using namespace s2s;
 sonar::SonarOptions paperLiteral() {
   sonar::SonarOptions options;
   options.horizontal.features.maxRunWidth_rad = options.vertical.features.maxRunWidth_rad = 0;
+  options.horizontal.preprocess.normaliseQuantile = options.vertical.preprocess.normaliseQuantile = 1;
   options.stereo.clusters.cost = sonar::ClusterCost::Literal;
   options.stereo.clusters.maxGap_m = 1e3;
   options.stereo.matching.cost = sonar::FeatureCost::Literal;

@@ -23,7 +23,7 @@ struct AssignmentProblem {
 
 struct AssignmentOptions {
   /// Problems with at most this many edges are solved optimally, larger ones by the auction.
-  std::size_t optimalEdges = 200000;
+  std::size_t optimalEdges = 5000;
   /// The auction's goal: cost above the optimum, as a share of a lower bound of the optimum.
   double relativeGap = 0.01;  // plus at most 1e-6 of the unmatched cost for each row
 };

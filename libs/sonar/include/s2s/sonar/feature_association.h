@@ -31,7 +31,7 @@ struct FeatureAssociationOptions {
   double maxResidual = 3.0;                        ///< Geometric: gate on |range misfit| / sigma
   double intensityWeight = 0.25;                   ///< Geometric: of the squared difference of standardised intensities
   double apertureMargin_rad = 1.0 * M_PI / 180.0;  ///< points may lie outside an aperture by this
-  double maxCost = 9.0;                            ///< Geometric: gate on the whole cost
+  double maxCost = 5.0;                            ///< Geometric: gate on the whole cost
   int literalNeighbours = 16;                      ///< Literal: candidates kept for each horizontal feature
   AmbiguityRule ambiguity = AmbiguityRule::Reject;
   double ambiguityCost = 4.0;  ///< candidates within this cost of the best are almost as good

@@ -29,9 +29,9 @@ struct PreprocessOptions {
   double centerHalfWidth_rad = 10.0 * M_PI / 180.0;
   /// Pixels below this share of the image's strongest one are cleared there; the paper gives no value.
   double centerLevel = 0.2;
-  /// Quantile of the non-zero pixels that becomes 255; 1 is the maximum, as in the paper. Less than 1 keeps one
-  /// glint from darkening the whole ping.
-  double normaliseQuantile = 1.0;
+  /// Quantile of the non-zero pixels that becomes 255. The paper normalises without saying to what; the maximum (1)
+  /// lets one glint, a wall square to the beam, darken the bed of the whole ping.
+  double normaliseQuantile = 0.999;
   int openingBins = 3;   ///< kernel height along range; tall, because the noise spans several beams
   int openingBeams = 1;  ///< kernel width
   int medianSize = 3;
