@@ -1,5 +1,6 @@
 #include "oculus2rawlog/device_clock.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "s2s/core/time.h"

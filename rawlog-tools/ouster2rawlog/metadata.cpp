@@ -1,5 +1,6 @@
 #include "ouster2rawlog/metadata.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <iterator>

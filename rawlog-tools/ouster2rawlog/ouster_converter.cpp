@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "ouster2rawlog/imu_packet.h"
 #include "ouster2rawlog/lidar_packet.h"

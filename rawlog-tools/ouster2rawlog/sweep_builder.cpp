@@ -1,5 +1,6 @@
 #include "ouster2rawlog/sweep_builder.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace s2s::tools::ouster {

@@ -1,5 +1,6 @@
 #include "pcd2rawlog/pcd_file.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>

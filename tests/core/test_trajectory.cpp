@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 using namespace s2s;
 using core::Isometry;
 using core::Trajectory;

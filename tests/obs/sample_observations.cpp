@@ -1,5 +1,8 @@
 #include "sample_observations.h"
 
+#include <cmath>
+#include <cstdint>
+
 namespace s2s::test {
 
 obs::CObservationImagingSonar::Ptr samplePing() {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "s2s/obs/rawlog_reader.h"
 #include "sample_observations.h"
 

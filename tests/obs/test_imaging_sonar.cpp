@@ -7,6 +7,8 @@
 #include <mrpt/opengl/CSetOfTexturedTriangles.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <cmath>
+#include <functional>
 #include <sstream>
 
 #include "s2s/core/error.h"

@@ -1,6 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
+#include <tuple>
+
 #include "oculus2rawlog/device_clock.h"
 #include "oculus2rawlog/oculus_converter.h"
 #include "oculus2rawlog/ping_message.h"

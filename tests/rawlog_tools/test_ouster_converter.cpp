@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationIMU.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "network_bytes.h"

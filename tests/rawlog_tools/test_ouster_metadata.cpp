@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 #include "ouster2rawlog/metadata.h"
 #include "ouster_bytes.h"
 #include "s2s/core/error.h"

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "byte_writer.h"
 #include "ouster2rawlog/imu_packet.h"
 #include "ouster2rawlog/lidar_packet.h"

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "byte_writer.h"
 #include "ouster_bytes.h"
 #include "s2s/obs/sweep_projector.h"

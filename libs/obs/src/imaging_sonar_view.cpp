@@ -4,6 +4,7 @@
 #include <mrpt/opengl/stock_objects.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "s2s/obs/CObservationImagingSonar.h"

@@ -6,6 +6,7 @@
 #include <mrpt/serialization/CArchive.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "s2s/core/error.h"

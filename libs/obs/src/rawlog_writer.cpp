@@ -4,6 +4,8 @@
 #include <mrpt/serialization/CArchive.h>
 #include <zlib.h>
 
+#include <algorithm>
+#include <limits>
 #include <map>
 
 #include "s2s/core/atomic_file.h"
