@@ -22,6 +22,7 @@ constexpr double kLevelGate = 2.0;
 struct Decision {
   double elevation_rad = 0;
   double halfSpread_rad = 0;  ///< standard deviation of the elevation
+  double offSurface_m = 0;    ///< standard deviation across the arc, beside that of the range
   double misfit = 0;          ///< distance from the surface in standard deviations
   ElevationSource source = ElevationSource::LowestPoint;
 };
@@ -66,7 +67,11 @@ Decision contact(const Arc& arc, const std::vector<Gap>& gaps, std::size_t least
   }
   Decision decision;
   decision.elevation_rad = atEdge ? arc.elevation_rad[least] : sum_rad / weights;
-  decision.halfSpread_rad = (arc.elevation_rad[last] - arc.elevation_rad[first]) / std::sqrt(12.0);
+  // Along a tangent the point stays on the surface, whichever of the places is right.
+  if (atEdge)
+    decision.halfSpread_rad = (arc.elevation_rad[last] - arc.elevation_rad[first]) / std::sqrt(12.0);
+  else
+    decision.offSurface_m = gaps[least].sigma_m;
   decision.misfit = std::abs(gaps[least].distance_m) / gaps[least].sigma_m;
   return decision;
 }
@@ -118,16 +123,16 @@ Decision lowestPoint(const Arc& arc, double lowest_rad) {
   return decision;
 }
 
-double pointSigma(const PackedReturn& r, double bearingSigma_rad, double elevationSigma_rad) {
-  const double range = r.range_m, along = range * elevationSigma_rad, across = range * bearingSigma_rad;
-  const double range_sigma = fromHalf(r.rangeSigmaHalf);
-  return std::sqrt(range_sigma * range_sigma + std::max(along * along, across * across));
+double pointSigma(const PackedReturn& r, double bearingSigma_rad, const Decision& decision) {
+  const double range = r.range_m, along = range * decision.halfSpread_rad, across = range * bearingSigma_rad;
+  const double radial = std::hypot(fromHalf(r.rangeSigmaHalf), decision.offSurface_m);
+  return std::sqrt(radial * radial + std::max(along * along, across * across));
 }
 
 void apply(const Decision& decision, double bearingSigma_rad, PackedReturn& r) {
   r.elevation = static_cast<std::int16_t>(std::lround(decision.elevation_rad / kElevationStep_rad));
   r.source = decision.source;
-  r.sigmaCode = encodeSigma(pointSigma(r, bearingSigma_rad, decision.halfSpread_rad));
+  r.sigmaCode = encodeSigma(pointSigma(r, bearingSigma_rad, decision));
 }
 
 /// Decides the returns of one ping; keeps the buffers between them.

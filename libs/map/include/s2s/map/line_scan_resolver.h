@@ -19,8 +19,10 @@ namespace s2s::map {
 /// first. That is the lower edge of the aperture for a horizontal sonar looking down, and the imaging plane for a
 /// vertical one.
 ///
-/// The standard deviation is that of range and bearing, of the surface, and along the arc that of the elevations that
-/// would have done as well: all of the aperture if nothing is known.
+/// The standard deviation is that of range and bearing, and along the arc that of the elevations that would have done
+/// as well: all of the aperture if nothing is known. Where the arc touches a known surface inside the aperture it is
+/// tangent to it: a wrong elevation moves the point along the surface, so there it is that of the distance from the
+/// surface.
 class LineScanResolver {
  public:
   /// Drops all evidence.
