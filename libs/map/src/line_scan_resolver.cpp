@@ -57,7 +57,8 @@ Decision contact(const Arc& arc, const std::vector<Gap>& gaps, std::size_t least
   std::size_t first = least, last = least;
   while (first > 0 && gaps[first - 1].known && gaps[first - 1].distance_m <= limit) --first;
   while (last + 1 < gaps.size() && gaps[last + 1].known && gaps[last + 1].distance_m <= limit) ++last;
-  const bool atEdge = (first == 0) != (last + 1 == gaps.size());
+  const bool allAlike = first == 0 && last + 1 == gaps.size();
+  const bool atEdge = (least == 0 || least + 1 == gaps.size()) && !allAlike;
   double weights = 0, sum_rad = 0;
   for (std::size_t i = first; i <= last; ++i) {
     const double excess = (gaps[i].distance_m - gaps[least].distance_m) / kReliefSigma_m;
