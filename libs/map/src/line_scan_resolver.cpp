@@ -57,8 +57,9 @@ Decision contact(const Arc& arc, const std::vector<Gap>& gaps, std::size_t least
   std::size_t first = least, last = least;
   while (first > 0 && gaps[first - 1].known && gaps[first - 1].distance_m <= limit) --first;
   while (last + 1 < gaps.size() && gaps[last + 1].known && gaps[last + 1].distance_m <= limit) ++last;
-  const bool allAlike = first == 0 && last + 1 == gaps.size();
-  const bool atEdge = (least == 0 || least + 1 == gaps.size()) && !allAlike;
+  // Places that reach one edge are cut off there: their mean would be pulled inward.
+  const bool isCutOff = (first == 0) != (last + 1 == gaps.size());
+  const bool atEdge = isCutOff && (least == 0 || least + 1 == gaps.size());
   double weights = 0, sum_rad = 0;
   for (std::size_t i = first; i <= last; ++i) {
     const double excess = (gaps[i].distance_m - gaps[least].distance_m) / kReliefSigma_m;
@@ -67,7 +68,7 @@ Decision contact(const Arc& arc, const std::vector<Gap>& gaps, std::size_t least
     sum_rad += weight * arc.elevation_rad[i];
   }
   Decision decision;
-  decision.elevation_rad = atEdge ? arc.elevation_rad[least] : sum_rad / weights;
+  decision.elevation_rad = isCutOff ? arc.elevation_rad[least] : sum_rad / weights;
   // Along a tangent the point stays on the surface, whichever of the places is right.
   if (atEdge)
     decision.halfSpread_rad = (arc.elevation_rad[last] - arc.elevation_rad[first]) / std::sqrt(12.0);
