@@ -70,6 +70,8 @@ class GraphSlam::Impl {
   int applyChoice();
   bool optimisationDue() const;
   SolveSummary solve();
+  void takeResult(const SurveyProblem& problem);
+  bool isAground(const SurveyProblem& problem);
   int dropContradictions();
 
   GraphSlamOptions options_;
@@ -173,22 +175,40 @@ SolveSummary GraphSlam::Impl::solve() {
     const auto start = Clock::now();
     SurveyProblem problem = makeSurveyProblem(state_, options_);
     summary = problem.graph->solve(options_.optimizer);
-    if (summary.status != SolveStatus::failed) {
-      for (std::size_t k = 0; k < state_.keyframes.size(); ++k)
-        state_.keyframes[k].T_map_vehicle = problem.graph->poseAt(k);
-      gnss_ = problem.gnss;
-      if (problem.alignment) gnss_.T_enu_map = alignmentFromBlock(problem.alignment);
-      if (problem.waterLevel) waterHeight_m_ = *problem.waterLevel;
-    }
+    if (summary.status != SolveStatus::failed) takeResult(problem);
     summary.time_s = secondsSince(start);
     statistics_.last = summary;
     ++statistics_.optimisations;
     statistics_.optimisation_s += summary.time_s;
-    if (summary.status == SolveStatus::failed || dropContradictions() == 0) break;
+    const bool again = summary.status != SolveStatus::failed && (isAground(problem) || dropContradictions() > 0);
+    if (!again) break;
   }
   waiting_ = 0;
   marginals_.reset();
   return summary;
+}
+
+void GraphSlam::Impl::takeResult(const SurveyProblem& problem) {
+  for (std::size_t k = 0; k < state_.keyframes.size(); ++k)
+    state_.keyframes[k].T_map_vehicle = problem.graph->poseAt(k);
+  gnss_ = problem.gnss;
+  if (problem.alignment) gnss_.T_enu_map = alignmentFromBlock(problem.alignment);
+  waterHeight_m_.reset();
+  if (!problem.waterLevels.empty()) waterHeight_m_ = *problem.waterLevels.back();
+}
+
+/// Gives the waterline prior up, and says so, if too many keyframes are off the water surface after all.
+bool GraphSlam::Impl::isAground(const SurveyProblem& problem) {
+  std::size_t off = 0;
+  for (std::size_t k = 0; k < problem.waterLevels.size(); ++k) {
+    const double height_m = state_.keyframes[k].T_map_vehicle.translation().z() - *problem.waterLevels[k];
+    if (std::abs(height_m - options_.waterline.height_m) > 3 * options_.waterline.sigma_m) ++off;
+  }
+  const auto count = static_cast<double>(problem.waterLevels.size());
+  if (static_cast<double>(off) <= options_.waterline.giveUpShare * count) return false;
+  state_.offTheWater = true;
+  waterHeight_m_.reset();
+  return true;
 }
 
 int GraphSlam::Impl::dropContradictions() {

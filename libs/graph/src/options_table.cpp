@@ -86,7 +86,9 @@ core::OptionTable optionTable(WaterlineOptions& o) {
       .add("sigma_m", o.sigma_m, "heave and trim, standard deviation", core::positive())
       .add("drift_sigma_m", o.driftSigma_m, "change of the surface from one section to the next", core::positive())
       .add("section_s", o.section_s, "length of a section", core::positive())
-      .add("loss_width", o.lossWidth, "width of the robust loss in standard deviations", core::positive());
+      .add("loss_width", o.lossWidth, "width of the robust loss in standard deviations", core::positive())
+      .add("give_up_share", o.giveUpShare, "share of keyframes off the surface after which the prior is dropped",
+           {0, 1});
   return table;
 }
 
@@ -106,7 +108,11 @@ core::OptionTable optionTable(GraphSlamOptions& o) {
            core::positive())
       .add("optimize_at_sigma", o.optimizeAt_sigma, "optimise when a new closure is so far off", core::atLeast(0))
       .add("optimize_at_count", o.optimizeAtCount, "or so many wait", core::atLeast(1))
-      .add("use_gravity", o.useGravity, "hold roll and pitch by gravity");
+      .add("use_gravity", o.useGravity, "hold roll and pitch by gravity")
+      .add("gravity_correlation_s", o.gravityCorrelation_s, "keyframes within it count as one measurement of gravity",
+           core::atLeast(0))
+      .addDegrees("gravity_floor_deg", o.gravityFloor_rad, "smallest standard deviation of such a measurement",
+                  core::positive());
   return table;
 }
 

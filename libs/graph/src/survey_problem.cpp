@@ -18,14 +18,18 @@ void addAnchor(const SurveyState& state, bool gravityKnown, GraphProblem& graph)
   graph.addPrior(0, state.keyframes.front().T_odom_vehicle, sigma.array().square().inverse().matrix().asDiagonal());
 }
 
-bool addGravity(const SurveyState& state, GraphProblem& graph) {
-  bool any = false;
+bool addGravity(const SurveyState& state, const GraphSlamOptions& options, GraphProblem& graph) {
+  std::optional<core::TimeNs> last;
   for (std::size_t k = 0; k < state.gravity.size(); ++k) {
     if (!state.gravity[k]) continue;
-    graph.add(new GravityFactor(state.gravity[k]->up_vehicle, state.gravity[k]->sigma_rad), nullptr, {graph.pose(k)});
-    any = true;
+    const core::TimeNs time = state.keyframes[k].time;
+    const double since_s = last ? std::max(core::secondsBetween(*last, time), 0.01) : options.gravityCorrelation_s;
+    const double together = std::max(1.0, options.gravityCorrelation_s / since_s);
+    const double sigma_rad = std::hypot(state.gravity[k]->sigma_rad, options.gravityFloor_rad) * std::sqrt(together);
+    graph.add(new GravityFactor(state.gravity[k]->up_vehicle, sigma_rad), nullptr, {graph.pose(k)});
+    last = time;
   }
-  return any;
+  return last.has_value();
 }
 
 void addClosures(const SurveyState& state, double lossWidth, GraphProblem& graph) {
@@ -36,7 +40,8 @@ void addClosures(const SurveyState& state, double lossWidth, GraphProblem& graph
 }
 
 /// One height of the surface for each section of time, each tied softly to the one before.
-double* addWaterline(const SurveyState& state, const WaterlineOptions& options, GraphProblem& graph) {
+void addWaterline(const SurveyState& state, const WaterlineOptions& options, SurveyProblem& survey) {
+  GraphProblem& graph = *survey.graph;
   double* level = nullptr;
   core::TimeNs sectionEnd = 0;
   for (std::size_t k = 0; k < state.keyframes.size(); ++k) {
@@ -51,8 +56,8 @@ double* addWaterline(const SurveyState& state, const WaterlineOptions& options, 
     }
     graph.add(new WaterlineFactor(options.height_m, options.sigma_m), new ceres::CauchyLoss(options.lossWidth),
               {graph.pose(k), level});
+    survey.waterLevels.push_back(level);
   }
-  return level;
 }
 
 void addGnss(const SurveyState& state, const GnssOptions& options, SurveyProblem& survey) {
@@ -85,10 +90,10 @@ SurveyProblem makeSurveyProblem(const SurveyState& state, const GraphSlamOptions
   GraphProblem& graph = *survey.graph;
   for (int k = 1; k < state.chain.size(); ++k)
     graph.addBetween(k - 1, k, state.chain.relative(k - 1, k), stepInformation(state.chain, k), nullptr);
-  const bool gravityKnown = options.useGravity && addGravity(state, graph);
+  const bool gravityKnown = options.useGravity && addGravity(state, options, graph);
   addAnchor(state, gravityKnown, graph);
   addClosures(state, options.closureLossWidth, graph);
-  if (options.waterline.enabled) survey.waterLevel = addWaterline(state, options.waterline, graph);
+  if (options.waterline.enabled && !state.offTheWater) addWaterline(state, options.waterline, survey);
   addGnss(state, options.gnss, survey);
   return survey;
 }

@@ -11,8 +11,8 @@ namespace s2s::graph {
 struct SurveyProblem {
   std::unique_ptr<GraphProblem> graph;
   GnssReport gnss;
-  double* alignment = nullptr;   ///< block of T_enu_map; null unless GNSS is trusted
-  double* waterLevel = nullptr;  ///< at the last keyframe; null without waterline prior
+  double* alignment = nullptr;       ///< block of T_enu_map; null unless GNSS is trusted
+  std::vector<double*> waterLevels;  ///< for each keyframe; empty without waterline prior
 };
 
 /// Builds the problem at the present estimate. The first keyframe is held: position and heading always, roll and pitch

@@ -17,6 +17,7 @@ struct SurveyState {
   OdometryChain chain;
   std::vector<LoopClosure> closures;
   std::vector<TiedFix> fixes;
+  bool offTheWater = false;  ///< the waterline prior was given up
 };
 
 }  // namespace s2s::graph

@@ -21,9 +21,9 @@ struct RegistrationOptions {
   /// More directions (of six) without information than this, and the clouds tell too little: a straight canal hides
   /// the way along it, the height and the pitch.
   int maxDegenerate = 3;
-  double correlatedPoints = 50;      ///< points that count as one independent measurement, for the covariance
-  double floorTranslation_m = 0.02;  ///< added to the covariance: what point counts cannot know
-  double floorRotation_rad = 0.001;
+  double correlatedPoints = 20;      ///< points that count as one independent measurement, for the covariance
+  double floorTranslation_m = 0.01;  ///< added to the covariance: what point counts cannot know
+  double floorRotation_rad = 0.0005;
 };
 
 enum class RegistrationStatus { converged, tooFewPartners, residualTooLarge, degenerate };

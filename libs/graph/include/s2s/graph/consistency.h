@@ -15,8 +15,8 @@ struct ConsistencyOptions {
   /// Closures that must agree before the first of them is believed.
   int minSupport = 2;
   /// Drift of the odometry per metre travelled that is assumed beyond its own covariance (random walk).
-  double driftTranslation_m = 0.01;
-  double driftRotation_rad = 0.0005;
+  double driftTranslation_m = 0.004;
+  double driftRotation_rad = 0.0002;
 };
 
 /// Squared Mahalanobis distance of a closure to the odometry.

@@ -58,7 +58,8 @@ class GraphSlam {
   const std::vector<LoopClosure>& loopClosures() const;  ///< all candidates, with what became of them
   GraphStatistics statistics() const;
   GnssReport gnssReport() const;
-  /// Height of the water surface in the map frame at the last keyframe, if the waterline prior is on.
+  /// Height of the water surface in the map frame at the last keyframe, if the waterline prior is on and was not given
+  /// up because the vehicle does not float.
   std::optional<double> waterHeight_m() const;
 
   /// Odometry constraints and accepted closures with the optimised poses.

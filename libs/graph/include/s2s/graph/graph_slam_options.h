@@ -27,6 +27,9 @@ struct WaterlineOptions {
   double driftSigma_m = 0.02;  ///< change of the surface between two sections (tide)
   double section_s = 60;
   double lossWidth = 2;  ///< of the robust losses, in standard deviations; locks and wash are outliers
+  /// The prior is switched off for the survey if this share of the keyframes is more than three standard deviations
+  /// off after all: this vehicle does not float.
+  double giveUpShare = 0.25;
 };
 
 struct GraphSlamOptions {
@@ -46,7 +49,12 @@ struct GraphSlamOptions {
   /// off, or so many wait.
   double optimizeAt_sigma = 3.0;
   int optimizeAtCount = 5;
+
   bool useGravity = true;
+  /// Errors of the up direction last (they come from the accelerometer's bias), so that all keyframes of such a time
+  /// together count as one measurement, and none is believed better than the floor.
+  double gravityCorrelation_s = 300;
+  double gravityFloor_rad = 0.001;
 };
 
 }  // namespace s2s::graph
