@@ -25,6 +25,8 @@ class Progress {
 
   /// Says how much is done in all; cheap enough for every record.
   void update(double done);
+  /// Corrects the total, where it becomes known only on the way.
+  void setTotal(double total) { total_ = total; }
   /// Ends the line. Called by the destructor too.
   void finish();
 

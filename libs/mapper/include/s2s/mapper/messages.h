@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "s2s/core/time.h"
+#include "s2s/core/trajectory.h"
+#include "s2s/core/transform.h"
+#include "s2s/map/scan.h"
+#include "s2s/sonar/leading_edge.h"
+
+namespace s2s::mapper {
+
+/// What the stages of the mapper hand on. Poses are T_odom_vehicle throughout: the odometry's own, never corrected.
+
+/// A sweep that became a keyframe.
+struct KeyframeData {
+  std::uint64_t id = 0;
+  core::TimeNs time = 0;
+  core::Isometry T_odom_vehicle = core::Isometry::Identity();
+  core::Matrix6 motionCovariance = core::Matrix6::Zero();  ///< of the motion since the previous keyframe
+  bool hasGravity = false;
+  Eigen::Vector3d up_vehicle = Eigen::Vector3d::UnitZ();
+  double gravitySigma_rad = 0;
+  std::vector<Eigen::Vector3f> registrationPoints_vehicle;  ///< few, for loop closures
+  std::vector<map::ScanPoint> points;                       ///< all, for the map
+  double waterHeight_odom_m = 0;                            ///< as estimated by then
+};
+
+/// Progress of the odometry after one sweep.
+struct OdometryUpdate {
+  std::vector<core::TimedPose> path;  ///< T_odom_vehicle at high rate since the last update
+  /// All records of the survey earlier than this have been handed out: whoever waits for a partner need not wait for
+  /// one from before.
+  core::TimeNs completeUntil = 0;
+  std::shared_ptr<KeyframeData> keyframe;  ///< null if the sweep is none
+};
+
+/// What a ping, or a pair of pings, adds to the map.
+struct SonarScan {
+  map::Layer layer = map::Layer::Stereo;
+  core::TimeNs time = 0;
+  core::Isometry T_odom_vehicle = core::Isometry::Identity();
+  std::vector<map::ScanPoint> points;  ///< of the stereo layer
+  core::Isometry T_vehicle_sonar = core::Isometry::Identity();
+  sonar::LineScan line;                ///< of the line-scan layers, with T_vehicle_sonar
+};
+
+}  // namespace s2s::mapper

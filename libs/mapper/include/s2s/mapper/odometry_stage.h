@@ -1,0 +1,66 @@
+#pragma once
+
+#include <mrpt/obs/CObservation.h>
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+
+#include "s2s/graph/keyframe_policy.h"
+#include "s2s/mapper/fault_log.h"
+#include "s2s/mapper/mapper_options.h"
+#include "s2s/mapper/messages.h"
+#include "s2s/mapper/water_level.h"
+#include "s2s/odometry/deskew.h"
+#include "s2s/odometry/lidar_inertial_odometry.h"
+#include "s2s/odometry/scan_maker.h"
+
+namespace s2s::mapper {
+
+/// First stage: IMU samples and LiDAR sweeps in, odometry out, one update a sweep; sweeps far enough from the last
+/// keyframe come with all their points, deskewed.
+class OdometryStage {
+ public:
+  struct Options {
+    MapperOptions mapper;
+    odometry::OdometryOptions odometry;
+    graph::KeyframePolicyOptions keyframes;
+    odometry::DeskewOptions deskew;
+  };
+  using Output = std::function<void(OdometryUpdate)>;
+
+  OdometryStage(const Options& options, FaultLog& faults, Output output);
+
+  void addImu(const mrpt::obs::CObservation& observation);
+  /// A sweep or a point cloud.
+  void addLidar(const mrpt::obs::CObservation::Ptr& observation);
+  /// Nothing more comes: processes what waits.
+  void finish();
+
+  /// T_odom_vehicle at the end of every sweep that has a pose.
+  const core::Trajectory& sweepPoses() const { return sweepPoses_; }
+  const WaterLevel& water() const { return water_; }
+  std::uint64_t sweepCount() const { return sweepCount_; }
+
+ private:
+  void drain();
+  void handle(const odometry::OdometryResult& result);
+  std::shared_ptr<KeyframeData> makeKeyframe(const odometry::OdometryResult& result,
+                                             const mrpt::obs::CObservation& sweep);
+  odometry::DeskewedCloud deskewed(const mrpt::obs::CObservation& sweep, core::TimeNs reference) const;
+  void reportFaults();
+
+  Options options_;
+  FaultLog& faults_;
+  Output output_;
+  odometry::ScanMaker scanMaker_;
+  odometry::LidarInertialOdometry odometry_;
+  odometry::MotionAccumulator motion_;
+  graph::KeyframePolicy keyframePolicy_;
+  std::deque<mrpt::obs::CObservation::Ptr> waiting_;  // sweeps whose pose is not known yet
+  core::Trajectory sweepPoses_;
+  WaterLevel water_;
+  std::uint64_t keyframeCount_ = 0, sweepCount_ = 0;
+};
+
+}  // namespace s2s::mapper

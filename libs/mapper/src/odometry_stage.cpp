@@ -1,0 +1,129 @@
+#include "s2s/mapper/odometry_stage.h"
+
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+
+#include "s2s/core/error.h"
+
+namespace s2s::mapper {
+
+namespace {
+
+/// Time that the odometry's trajectory is kept for sweeps that still wait to be deskewed.
+constexpr double kTrajectoryMemory_s = 5.0;
+
+odometry::Scan makeScan(odometry::ScanMaker& maker, const mrpt::obs::CObservation& observation) {
+  if (const auto* sweep = dynamic_cast<const obs::CObservationLidarSweep*>(&observation)) return maker.fromSweep(*sweep);
+  return maker.fromCloud(dynamic_cast<const mrpt::obs::CObservationPointCloud&>(observation));
+}
+
+std::vector<map::ScanPoint> scanPoints(const odometry::DeskewedCloud& cloud) {
+  std::vector<map::ScanPoint> points(cloud.points_vehicle.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] = {cloud.points_vehicle[i], cloud.reflectivity[i], cloud.sigma_m[i]};
+  return points;
+}
+
+}  // namespace
+
+OdometryStage::OdometryStage(const Options& options, FaultLog& faults, Output output)
+    : options_(options),
+      faults_(faults),
+      output_(std::move(output)),
+      scanMaker_(options.odometry.scan),
+      odometry_(options.odometry),
+      keyframePolicy_(options.keyframes) {}
+
+void OdometryStage::addImu(const mrpt::obs::CObservation& observation) {
+  const auto sample = odometry::imuSampleFrom(dynamic_cast<const mrpt::obs::CObservationIMU&>(observation));
+  if (!sample) {
+    faults_.add("IMU records without all of three rates and three accelerations were dropped",
+                core::formatUtc(core::fromMrptTime(observation.timestamp)));
+    return;
+  }
+  odometry_.addImu(*sample);
+  drain();
+}
+
+void OdometryStage::addLidar(const mrpt::obs::CObservation::Ptr& observation) {
+  try {
+    odometry_.addScan(makeScan(scanMaker_, *observation));
+  } catch (const core::InputError& e) {
+    faults_.add("unusable LiDAR sweeps were dropped: " + e.fault(), core::formatUtc(core::fromMrptTime(observation->timestamp)));
+    return;
+  }
+  waiting_.push_back(observation);
+  drain();
+}
+
+void OdometryStage::finish() {
+  odometry_.finish();
+  drain();
+  reportFaults();
+}
+
+void OdometryStage::drain() {
+  while (const auto result = odometry_.next()) handle(*result);
+}
+
+void OdometryStage::handle(const odometry::OdometryResult& result) {
+  // Every scan gives one result, in order.
+  const auto sweep = waiting_.front();
+  waiting_.pop_front();
+  ++sweepCount_;
+
+  OdometryUpdate update;
+  update.completeUntil = result.scanTime;
+  if (result.status != odometry::OdometryStatus::skipped) {
+    update.path = result.path;
+    motion_.add(result);
+    sweepPoses_.append(result.time, result.T_odom_vehicle);
+    water_.add(result.time, (result.T_odom_vehicle * Eigen::Vector3d(0, 0, options_.mapper.waterline_m)).z());
+    if (keyframePolicy_.accept(result.T_odom_vehicle)) update.keyframe = makeKeyframe(result, *sweep);
+    odometry_.forgetTrajectoryBefore(result.time - core::durationNs(kTrajectoryMemory_s));
+  }
+  output_(std::move(update));
+}
+
+std::shared_ptr<KeyframeData> OdometryStage::makeKeyframe(const odometry::OdometryResult& result,
+                                                          const mrpt::obs::CObservation& sweep) {
+  auto keyframe = std::make_shared<KeyframeData>();
+  keyframe->id = keyframeCount_++;
+  keyframe->time = result.time;
+  keyframe->T_odom_vehicle = result.T_odom_vehicle;
+  keyframe->motionCovariance = motion_.motion().covariance;
+  motion_.restart();
+  keyframe->hasGravity = result.hasGravity;
+  keyframe->up_vehicle = result.T_odom_vehicle.linear().transpose() * result.up_odom;
+  keyframe->gravitySigma_rad = result.gravitySigma_rad;
+  keyframe->waterHeight_odom_m = water_.height_m();
+  keyframe->points = scanPoints(deskewed(sweep, result.time));
+
+  const double lowest_m = options_.mapper.onWater ? water_.height_m() + options_.mapper.waterMargin_m
+                                                  : -std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3f& p : result.points_vehicle)
+    if ((result.T_odom_vehicle * p.cast<double>()).z() > lowest_m) keyframe->registrationPoints_vehicle.push_back(p);
+  return keyframe;
+}
+
+odometry::DeskewedCloud OdometryStage::deskewed(const mrpt::obs::CObservation& sweep, core::TimeNs reference) const {
+  odometry::DeskewOptions options = options_.deskew;
+  options.filter = options_.odometry.scan;
+  if (options_.mapper.onWater) options.lowestHeight_m = water_.height_m() + options_.mapper.waterMargin_m;
+  if (const auto* organised = dynamic_cast<const obs::CObservationLidarSweep*>(&sweep))
+    return odometry::deskewSweep(*organised, odometry_.trajectory(), reference, options);
+  return odometry::deskewCloud(dynamic_cast<const mrpt::obs::CObservationPointCloud&>(sweep), odometry_.trajectory(),
+                               reference, options);
+}
+
+void OdometryStage::reportFaults() {
+  const auto& f = odometry_.faults();
+  faults_.add("IMU samples refused (not finite, or time not increasing)", {}, f.imuRefused);
+  faults_.add("sweeps that had to bridge missing IMU samples", {}, f.imuGaps);
+  faults_.add("IMU samples that came after the odometry had started without IMU", {}, f.imuIgnored);
+  faults_.add("sweeps without a usable point", {}, f.scansEmpty);
+  faults_.add("sweeps whose time does not increase", {}, f.scansTimeNotIncreasing);
+  faults_.add("sweeps that matched too little: their pose is the prediction of the motion model", {}, f.scansDeadReckoned);
+}
+
+}  // namespace s2s::mapper

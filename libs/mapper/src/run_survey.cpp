@@ -1,0 +1,110 @@
+#include "s2s/mapper/run_survey.h"
+
+#include <chrono>
+#include <filesystem>
+#include <map>
+
+#include "s2s/core/atomic_file.h"
+#include "s2s/core/error.h"
+#include "s2s/core/progress.h"
+#include "s2s/graph/graph_io.h"
+#include "s2s/mapper/survey_mapper.h"
+#include "s2s/obs/rawlog_reader.h"
+#include "s2s/products/write_products.h"
+
+namespace s2s::mapper {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Total length of the survey in seconds, extrapolated from the share of the file that was read.
+double expectedTotal_s(double done_s, double shareRead, const SurveyRun& run) {
+  const double all_s = shareRead > 0 ? done_s / shareRead : 0;
+  const double end_s = run.to_s > 0 ? std::min(run.to_s, all_s) : all_s;
+  return std::max(done_s, end_s - run.from_s);
+}
+
+/// Pushes the records of the chosen part of the rawlog into the mapper.
+void readSurvey(const SurveyRun& run, obs::RawlogReader& reader, SurveyMapper& mapper) {
+  core::Progress progress(run.progress, "Mapping", 0, "s");
+  std::optional<core::TimeNs> start;
+  while (const auto observation = reader.next()) {
+    const core::TimeNs time = core::fromMrptTime(observation->timestamp);
+    if (!start) start = time;
+    const double elapsed_s = core::secondsBetween(*start, time);
+    if (elapsed_s < run.from_s) continue;
+    if (run.to_s >= 0 && elapsed_s > run.to_s) break;
+    mapper.push(observation, reader.where());
+    progress.setTotal(expectedTotal_s(elapsed_s, reader.shareRead(), run) - (run.from_s > 0 ? run.from_s : 0));
+    progress.update(elapsed_s - run.from_s);
+  }
+  for (const auto& fault : reader.faults())
+    mapper.faults().add(fault.fatal() ? "reading ended early: " + fault.text : fault.text,
+                        reader.path() + ", record " + std::to_string(fault.record) + ", byte " +
+                            std::to_string(fault.byte));
+}
+
+products::RunSummary summarize(const SurveyRun& run, const SurveyConfig& config, const SurveyMapper& mapper) {
+  products::RunSummary summary;
+  const auto& sensors = mapper.sensors();
+  const auto trajectory = mapper.trajectory();
+  summary.inputs = {run.rawlog};
+  summary.startTime = sensors.first();
+  summary.endTime = sensors.last();
+  summary.duration_s = core::secondsBetween(sensors.first(), sensors.last());
+  summary.sweeps = mapper.sweepCount();
+  summary.pingsHorizontal = sensors.count(Role::SonarHorizontal);
+  summary.pingsVertical = sensors.count(Role::SonarVertical);
+  summary.imuSamples = sensors.count(Role::Imu);
+  summary.keyframes = mapper.graph().keyframes().size();
+  summary.loopClosures = static_cast<std::uint64_t>(mapper.graph().statistics().accepted);
+  summary.pathLength_m = trajectory.length_m();
+  if (config.mapper.onWater) {
+    summary.waterHeight_m = mapper.waterHeight_m();
+    summary.waterHeightSource = "mean height of the hull's waterline along the path";
+  }
+  summary.warnings = mapper.faults().lines();
+  std::map<std::string, mrpt::system::CTimeLogger::TCallStats> stages;
+  mapper.profile().getStats(stages);
+  for (const auto& [name, stats] : stages) summary.stageTimes_s.emplace_back(name, stats.total_t);
+  summary.effectiveIni = printSurveyConfig(config);
+  return summary;
+}
+
+std::string inFolder(const SurveyRun& run, const std::string& name) {
+  return (std::filesystem::path(run.output) / name).string();
+}
+
+}  // namespace
+
+products::RunSummary runSurvey(const SurveyRun& run, const SurveyConfig& config) {
+  const auto start = Clock::now();
+  obs::RawlogReader reader(run.rawlog);
+  core::writeTextFile(inFolder(run, "effective.ini"), printSurveyConfig(config));
+
+  SurveyMapper mapper(config, run.threads);
+  readSurvey(run, reader, mapper);
+  mapper.sensors().requireLidar(run.rawlog);
+  mapper.finish();
+  if (mapper.graph().keyframes().empty())
+    throw core::InputError("no sweep gave a pose, so there is no map", run.rawlog,
+                           "look at the LiDAR in RawLogViewer; check the range limits in [odometry]");
+
+  auto summary = summarize(run, config, mapper);
+  summary.wall_s = secondsSince(start);
+  const auto poses = mapper.graph().poseGraph();
+  graph::writeGraph(inFolder(run, "graph.g2o"), poses);
+  graph::writeGraph(inFolder(run, "graph.graph"), poses);
+  core::Progress progress(run.progress, "Writing products", 0, "files");
+  double files = 0;
+  const auto result = products::writeProducts(
+      [&mapper](map::Layer layer, const products::PointVisitor& visit) { mapper.map().forEachPoint(layer, visit); },
+      {mapper.trajectory(), mapper.odometryTrajectory(), mapper.keyframeTrajectory()}, summary, config.products,
+      run.output, [&](const std::string&) { progress.update(++files); });
+  return result.summary;
+}
+
+}  // namespace s2s::mapper

@@ -1,0 +1,90 @@
+#include "s2s/mapper/sensor_router.h"
+
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationPointCloud.h>
+
+#include "s2s/core/error.h"
+#include "s2s/obs/CObservationImagingSonar.h"
+#include "s2s/obs/CObservationLidarSweep.h"
+
+namespace s2s::mapper {
+
+namespace {
+
+bool classFits(Role role, const mrpt::obs::CObservation& observation) {
+  switch (role) {
+    case Role::Lidar:
+      return dynamic_cast<const obs::CObservationLidarSweep*>(&observation) ||
+             dynamic_cast<const mrpt::obs::CObservationPointCloud*>(&observation);
+    case Role::Imu:
+      return dynamic_cast<const mrpt::obs::CObservationIMU*>(&observation) != nullptr;
+    case Role::SonarHorizontal:
+    case Role::SonarVertical:
+      return dynamic_cast<const obs::CObservationImagingSonar*>(&observation) != nullptr;
+    case Role::None:
+      break;
+  }
+  return true;
+}
+
+std::string className(const mrpt::obs::CObservation& observation) {
+  return observation.GetRuntimeClass()->className;
+}
+
+}  // namespace
+
+SensorRouter::SensorRouter(const MapperOptions& options, FaultLog& faults) : options_(options), faults_(faults) {}
+
+Role SensorRouter::roleOf(const std::string& label) const {
+  if (label == options_.lidar.label) return Role::Lidar;
+  if (label == options_.imu.label) return Role::Imu;
+  if (label == options_.sonarHorizontal.label) return Role::SonarHorizontal;
+  if (label == options_.sonarVertical.label) return Role::SonarVertical;
+  return Role::None;
+}
+
+Role SensorRouter::route(mrpt::obs::CObservation& observation, const std::string& where) {
+  const std::string& label = observation.sensorLabel;
+  const Role role = roleOf(label);
+  if (role == Role::None) {
+    unusedClasses_.emplace(label, className(observation));
+    faults_.add("records of '" + label + "' (" + className(observation) + ") are not used", where);
+    return Role::None;
+  }
+  if (!classFits(role, observation)) {
+    unusedClasses_.emplace(label, className(observation));
+    faults_.add("records of '" + label + "' are of class " + className(observation) + ", which cannot be used as that sensor",
+                where);
+    return Role::None;
+  }
+  const core::TimeNs time = core::fromMrptTime(observation.timestamp);
+  if (time <= 0) {
+    faults_.add("records of '" + label + "' without a time were dropped", where);
+    return Role::None;
+  }
+  const auto index = static_cast<std::size_t>(role);
+  if (counts_[index] > 0 && time <= lastOf_[index]) {
+    faults_.add("records of '" + label + "' whose time does not advance were dropped", where);
+    return Role::None;
+  }
+  const std::array<const SensorOptions*, 4> sensors = {&options_.lidar, &options_.imu, &options_.sonarHorizontal,
+                                                       &options_.sonarVertical};
+  if (const auto& T = sensors[index]->T_vehicle_sensor) observation.setSensorPose(core::toPose(*T));
+  if (counts_[0] + counts_[1] + counts_[2] + counts_[3] == 0) first_ = time;
+  ++counts_[index];
+  lastOf_[index] = time;
+  first_ = std::min(first_, time);
+  last_ = std::max(last_, time);
+  return role;
+}
+
+void SensorRouter::requireLidar(const std::string& rawlog) const {
+  if (count(Role::Lidar) > 0) return;
+  std::string found;
+  for (const auto& [label, name] : unusedClasses_) found += (found.empty() ? "" : ", ") + ("'" + label + "' (" + name + ")");
+  throw core::InputError("no LiDAR sweep labelled '" + options_.lidar.label + "', so nothing can be mapped", rawlog,
+                         found.empty() ? "record a LiDAR along with the sonars"
+                                       : "set label_lidar in [mapper] to the LiDAR among: " + found);
+}
+
+}  // namespace s2s::mapper

@@ -1,0 +1,95 @@
+#include "s2s/mapper/survey_mapper.h"
+
+#include "s2s/obs/CObservationImagingSonar.h"
+
+namespace s2s::mapper {
+
+namespace {
+
+OdometryStage::Options odometryStageOptions(const SurveyConfig& config) {
+  OdometryStage::Options options;
+  options.mapper = config.mapper;
+  options.odometry = config.odometry;
+  options.keyframes = config.graph.keyframes;
+  return options;
+}
+
+SonarStage::Options sonarStageOptions(const SurveyConfig& config) {
+  SonarStage::Options options;
+  options.sonar = config.sonar;
+  options.stereoPairWindow_s = config.mapper.stereoPairWindow_s;
+  return options;
+}
+
+}  // namespace
+
+SurveyMapper::SurveyMapper(const SurveyConfig& config, int threads)
+    : config_(config),
+      router_(config_.mapper, faults_),
+      backend_(config_.graph, config_.map),
+      backendWorker_(threads > 1, static_cast<std::size_t>(config_.mapper.queueCapacity)),
+      sonar_(sonarStageOptions(config_), faults_,
+             [this](const SonarScan& scan) {
+               backendWorker_.post(timed("back end: sonar scan", [this, scan] { backend_.addSonarScan(scan); }));
+             }),
+      sonarWorker_(threads > 1, static_cast<std::size_t>(config_.mapper.queueCapacity)),
+      odometry_(odometryStageOptions(config_), faults_, [this](OdometryUpdate update) { onOdometry(std::move(update)); }),
+      odometryWorker_(threads > 1, static_cast<std::size_t>(config_.mapper.queueCapacity)) {}
+
+SurveyMapper::~SurveyMapper() = default;
+
+void SurveyMapper::push(const mrpt::obs::CObservation::Ptr& observation, const std::string& where) {
+  const Role role = router_.route(*observation, where);
+  switch (role) {
+    case Role::Imu:
+      return odometryWorker_.post(timed("odometry: IMU", [this, observation] { odometry_.addImu(*observation); }));
+    case Role::Lidar:
+      return odometryWorker_.post(timed("odometry: sweep", [this, observation] { odometry_.addLidar(observation); }));
+    case Role::SonarHorizontal:
+    case Role::SonarVertical: {
+      const auto ping = std::dynamic_pointer_cast<const obs::CObservationImagingSonar>(observation);
+      return sonarWorker_.post(timed("sonar: images", [this, role, ping] { sonar_.addPing({role, ping}); }));
+    }
+    case Role::None:
+      return;
+  }
+}
+
+void SurveyMapper::onOdometry(OdometryUpdate update) {
+  if (const auto keyframe = std::exchange(update.keyframe, nullptr))
+    backendWorker_.post(timed("back end: keyframe", [this, keyframe] { backend_.addKeyframe(*keyframe); }));
+  sonarWorker_.post(timed("sonar: placing, stereo", [this, update = std::move(update)] { sonar_.addPoses(update); }));
+}
+
+void SurveyMapper::finish() {
+  odometryWorker_.finish();
+  odometry_.finish();
+  sonarWorker_.finish();
+  sonar_.finish();
+  backendWorker_.finish();
+  const mrpt::system::CTimeLoggerEntry timer(profile_, "back end: last optimisation");
+  backend_.finish();
+}
+
+core::Trajectory SurveyMapper::trajectory() const {
+  core::Trajectory poses;
+  for (const auto& pose : odometry_.sweepPoses().poses()) poses.append(pose.time, map().poseAt(pose.time, pose.T));
+  return poses;
+}
+
+core::Trajectory SurveyMapper::keyframeTrajectory() const {
+  core::Trajectory poses;
+  for (const auto& keyframe : graph().keyframes()) poses.append(keyframe.time, keyframe.T_map_vehicle);
+  return poses;
+}
+
+double SurveyMapper::waterHeight_m() const {
+  if (!config_.mapper.onWater) return 0;
+  const Eigen::Vector3d waterline_vehicle(0, 0, config_.mapper.waterline_m);
+  double sum_m = 0;
+  const auto poses = trajectory();
+  for (const auto& pose : poses.poses()) sum_m += (pose.T * waterline_vehicle).z();
+  return poses.empty() ? 0 : sum_m / static_cast<double>(poses.size());
+}
+
+}  // namespace s2s::mapper
