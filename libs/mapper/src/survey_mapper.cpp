@@ -11,6 +11,11 @@ OdometryStage::Options odometryStageOptions(const SurveyConfig& config) {
   options.mapper = config.mapper;
   options.odometry = config.odometry;
   options.keyframes = config.graph.keyframes;
+  auto& water = options.odometry.water;
+  water.rejectBelow = config.mapper.onWater;
+  water.heavePrior = water.heavePrior && config.mapper.onWater;
+  water.height_m = config.mapper.waterline_m;
+  water.margin_m = config.mapper.waterMargin_m;
   return options;
 }
 
@@ -25,6 +30,7 @@ SonarStage::Options sonarStageOptions(const SurveyConfig& config) {
 
 SurveyMapper::SurveyMapper(const SurveyConfig& config, int threads)
     : config_(config),
+      profile_(true),
       router_(config_.mapper, faults_),
       backend_(config_.graph, config_.map),
       backendWorker_(threads > 1, static_cast<std::size_t>(config_.mapper.queueCapacity)),
@@ -36,7 +42,9 @@ SurveyMapper::SurveyMapper(const SurveyConfig& config, int threads)
       odometry_(odometryStageOptions(config_), faults_, [this](OdometryUpdate update) { onOdometry(std::move(update)); }),
       odometryWorker_(threads > 1, static_cast<std::size_t>(config_.mapper.queueCapacity)) {}
 
-SurveyMapper::~SurveyMapper() = default;
+SurveyMapper::~SurveyMapper() {
+  profile_.clear(true);  // or its destructor would print it
+}
 
 void SurveyMapper::push(const mrpt::obs::CObservation::Ptr& observation, const std::string& where) {
   const Role role = router_.route(*observation, where);

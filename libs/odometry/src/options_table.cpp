@@ -74,10 +74,7 @@ void addWater(OptionTable& table, WaterOptions& o) {
       .add("heave_time_s", o.heaveTime_s, "over which one heave resembles the next", positive())
       .add("level_walk_m_rts", o.levelWalk_m_rts, "random walk of the water's level (tide)", atLeast(0))
       .add("level_give_up_sigma", o.giveUpSigma,
-           "if the height stays this many standard deviations off, the water has moved (a lock)", positive())
-      .add("water_rejection", o.rejectBelow, "leave out returns below the water (needs an IMU)")
-      .add("water_height_m", o.height_m, "height of the water in the vehicle's frame at rest")
-      .add("water_margin_m", o.margin_m, "returns this little above the water are left out, too", atLeast(0));
+           "if the height stays this many standard deviations off, the water has moved (a lock)", positive());
 }
 
 }  // namespace

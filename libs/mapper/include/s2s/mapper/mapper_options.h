@@ -24,8 +24,8 @@ struct MapperOptions {
   double stereoPairWindow_s = 0.04;
   /// Height of the water surface in the vehicle frame when the vessel floats at rest.
   double waterline_m = 0.0;
-  /// LiDAR returns lower than this above the water surface do not enter the map.
-  double waterMargin_m = 0.10;
+  /// LiDAR returns lower than this above the water surface enter neither the odometry nor the map.
+  double waterMargin_m = 0.15;
   /// False for vehicles on land: no water surface is estimated and nothing is cut at it.
   bool onWater = true;
   /// Records that wait between two threads; more smooths the load, less saves memory.

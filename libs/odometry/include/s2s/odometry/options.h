@@ -64,7 +64,8 @@ struct RegistrationOptions {
   double correlation = 4.0;
 };
 
-/// Knowledge that the vehicle floats. Only used with an IMU, which tells where down is.
+/// Knowledge that the vehicle floats. Only used with an IMU, which tells where down is. Whether there is water, and
+/// how high, is not the odometry's alone to know: `rejectBelow`, `height_m` and `margin_m` are set by the application.
 struct WaterOptions {
   /// Soft knowledge that the vehicle stays near one height, which may itself change slowly. Between vertical quays
   /// nothing that a LiDAR sees tells the height, and an accelerometer alone loses it within seconds.
