@@ -20,12 +20,12 @@ std::string count(std::uint64_t n) { return std::to_string(n); }
 
 void requireMapArguments(const mapper::SurveyRun& run, const std::string& config) {
   if (run.rawlog.empty())
-    throw core::ConfigError("no rawlog was given", "command line", "seabed-sky-map SURVEY.rawlog --config INI --output DIR");
+    throw core::ConfigError("no rawlog was given", "command line",
+                            "seabed-sky-map SURVEY.rawlog --config INI --output DIR");
   if (config.empty())
     throw core::ConfigError("no configuration was given", "command line",
                             "add --config INI; ini/ has one for each purpose, a simulated survey brings its own");
-  if (run.output.empty())
-    throw core::ConfigError("no output folder was given", "command line", "add --output DIR");
+  if (run.output.empty()) throw core::ConfigError("no output folder was given", "command line", "add --output DIR");
 }
 
 std::string closingTable(const products::RunSummary& s, const std::string& output) {

@@ -52,7 +52,8 @@ void BackendStage::finish() {
 
 void BackendStage::moveMap() {
   std::map<std::uint64_t, core::Isometry> poses;
-  for (const auto& keyframe : graph_.keyframes()) poses[static_cast<std::uint64_t>(keyframe.id)] = keyframe.T_map_vehicle;
+  for (const auto& keyframe : graph_.keyframes())
+    poses[static_cast<std::uint64_t>(keyframe.id)] = keyframe.T_map_vehicle;
   map_.setKeyframePoses(poses);
 }
 

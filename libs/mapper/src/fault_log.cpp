@@ -21,8 +21,10 @@ std::vector<std::string> FaultLog::lines() const {
   std::vector<std::string> lines;
   for (const Entry& e : entries_) {
     std::string line = e.kind;
-    if (e.count > 1) line += " (" + std::to_string(e.count) + " times" + (e.where.empty() ? "" : ", first: " + e.where) + ")";
-    else if (!e.where.empty()) line += " (" + e.where + ")";
+    if (e.count > 1)
+      line += " (" + std::to_string(e.count) + " times" + (e.where.empty() ? "" : ", first: " + e.where) + ")";
+    else if (!e.where.empty())
+      line += " (" + e.where + ")";
     lines.push_back(line);
   }
   return lines;

@@ -34,8 +34,7 @@ core::OptionTable optionTable(MapperOptions& o) {
             "Pings of the two sonars no further apart than this are a stereo pair", {0.0, 1.0});
   table.add("on_water", o.onWater, "False on land: no water surface is estimated and nothing is cut at it");
   table.add("waterline_m", o.waterline_m, "Height of the water surface in the vehicle frame at rest", {-100, 100});
-  table.add("water_margin_m", o.waterMargin_m, "LiDAR returns lower than this above the water are left out",
-            {-10, 10});
+  table.add("water_margin_m", o.waterMargin_m, "LiDAR returns lower than this above the water are left out", {-10, 10});
   table.add("queue_capacity", o.queueCapacity, "Records that may wait between two threads", {1, 100000});
   return table;
 }

@@ -13,7 +13,8 @@ namespace {
 constexpr double kTrajectoryMemory_s = 5.0;
 
 odometry::Scan makeScan(odometry::ScanMaker& maker, const mrpt::obs::CObservation& observation) {
-  if (const auto* sweep = dynamic_cast<const obs::CObservationLidarSweep*>(&observation)) return maker.fromSweep(*sweep);
+  if (const auto* sweep = dynamic_cast<const obs::CObservationLidarSweep*>(&observation))
+    return maker.fromSweep(*sweep);
   return maker.fromCloud(dynamic_cast<const mrpt::obs::CObservationPointCloud&>(observation));
 }
 
@@ -49,7 +50,8 @@ void OdometryStage::addLidar(const mrpt::obs::CObservation::Ptr& observation) {
   try {
     odometry_.addScan(makeScan(scanMaker_, *observation));
   } catch (const core::InputError& e) {
-    faults_.add("unusable LiDAR sweeps were dropped: " + e.fault(), core::formatUtc(core::fromMrptTime(observation->timestamp)));
+    faults_.add("unusable LiDAR sweeps were dropped: " + e.fault(),
+                core::formatUtc(core::fromMrptTime(observation->timestamp)));
     return;
   }
   waiting_.push_back(observation);
@@ -123,7 +125,8 @@ void OdometryStage::reportFaults() {
   faults_.add("IMU samples that came after the odometry had started without IMU", {}, f.imuIgnored);
   faults_.add("sweeps without a usable point", {}, f.scansEmpty);
   faults_.add("sweeps whose time does not increase", {}, f.scansTimeNotIncreasing);
-  faults_.add("sweeps that matched too little: their pose is the prediction of the motion model", {}, f.scansDeadReckoned);
+  faults_.add("sweeps that matched too little: their pose is the prediction of the motion model", {},
+              f.scansDeadReckoned);
 }
 
 }  // namespace s2s::mapper

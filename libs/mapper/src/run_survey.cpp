@@ -42,9 +42,9 @@ void readSurvey(const SurveyRun& run, obs::RawlogReader& reader, SurveyMapper& m
     progress.update(elapsed_s - run.from_s);
   }
   for (const auto& fault : reader.faults())
-    mapper.faults().add(fault.fatal() ? "reading ended early: " + fault.text : fault.text,
-                        reader.path() + ", record " + std::to_string(fault.record) + ", byte " +
-                            std::to_string(fault.byte));
+    mapper.faults().add(
+        fault.fatal() ? "reading ended early: " + fault.text : fault.text,
+        reader.path() + ", record " + std::to_string(fault.record) + ", byte " + std::to_string(fault.byte));
 }
 
 products::RunSummary summarize(const SurveyRun& run, const SurveyConfig& config, const SurveyMapper& mapper) {

@@ -27,9 +27,7 @@ bool classFits(Role role, const mrpt::obs::CObservation& observation) {
   return true;
 }
 
-std::string className(const mrpt::obs::CObservation& observation) {
-  return observation.GetRuntimeClass()->className;
-}
+std::string className(const mrpt::obs::CObservation& observation) { return observation.GetRuntimeClass()->className; }
 
 }  // namespace
 
@@ -53,8 +51,9 @@ Role SensorRouter::route(mrpt::obs::CObservation& observation, const std::string
   }
   if (!classFits(role, observation)) {
     unusedClasses_.emplace(label, className(observation));
-    faults_.add("records of '" + label + "' are of class " + className(observation) + ", which cannot be used as that sensor",
-                where);
+    faults_.add(
+        "records of '" + label + "' are of class " + className(observation) + ", which cannot be used as that sensor",
+        where);
     return Role::None;
   }
   const core::TimeNs time = core::fromMrptTime(observation.timestamp);
@@ -81,7 +80,8 @@ Role SensorRouter::route(mrpt::obs::CObservation& observation, const std::string
 void SensorRouter::requireLidar(const std::string& rawlog) const {
   if (count(Role::Lidar) > 0) return;
   std::string found;
-  for (const auto& [label, name] : unusedClasses_) found += (found.empty() ? "" : ", ") + ("'" + label + "' (" + name + ")");
+  for (const auto& [label, name] : unusedClasses_)
+    found += (found.empty() ? "" : ", ") + ("'" + label + "' (" + name + ")");
   throw core::InputError("no LiDAR sweep labelled '" + options_.lidar.label + "', so nothing can be mapped", rawlog,
                          found.empty() ? "record a LiDAR along with the sonars"
                                        : "set label_lidar in [mapper] to the LiDAR among: " + found);

@@ -53,7 +53,8 @@ void SonarStage::advance(core::TimeNs completeUntil) {
   }
   // A horizontal ping is done with when every vertical ping it could pair with has been.
   const core::TimeNs window = core::durationNs(options_.stereoPairWindow_s);
-  const core::TimeNs oldestPartner = vertical_.empty() ? std::min(completeUntil, poses_.back().time) : vertical_.front().time;
+  const core::TimeNs oldestPartner =
+      vertical_.empty() ? std::min(completeUntil, poses_.back().time) : vertical_.front().time;
   while (!horizontal_.empty() && horizontal_.front().placed && horizontal_.front().time < oldestPartner - window)
     horizontal_.pop_front();
   core::TimeNs oldest = poses_.back().time;
@@ -121,8 +122,8 @@ void SonarStage::fuse(const Waiting& horizontal, const Waiting& vertical) {
   scan.time = horizontal.time;
   scan.T_odom_vehicle = *T_odom_h;
   for (const auto& point : result.points)
-    scan.points.push_back({(horizontal.T_vehicle_sonar * point.p_h).cast<float>(), point.intensity,
-                           static_cast<float>(point.sigma_m())});
+    scan.points.push_back(
+        {(horizontal.T_vehicle_sonar * point.p_h).cast<float>(), point.intensity, static_cast<float>(point.sigma_m())});
   if (!scan.points.empty()) output_(std::move(scan));
 }
 

@@ -39,7 +39,8 @@ SurveyMapper::SurveyMapper(const SurveyConfig& config, int threads)
                backendWorker_.post(timed("back end: sonar scan", [this, scan] { backend_.addSonarScan(scan); }));
              }),
       sonarWorker_(threads > 1, static_cast<std::size_t>(config_.mapper.queueCapacity)),
-      odometry_(odometryStageOptions(config_), faults_, [this](OdometryUpdate update) { onOdometry(std::move(update)); }),
+      odometry_(odometryStageOptions(config_), faults_,
+                [this](OdometryUpdate update) { onOdometry(std::move(update)); }),
       odometryWorker_(threads > 1, static_cast<std::size_t>(config_.mapper.queueCapacity)) {}
 
 SurveyMapper::~SurveyMapper() {

@@ -10,7 +10,7 @@ namespace s2s::mapper {
 
 /// One sensor of the vessel as it appears in the rawlog.
 struct SensorOptions {
-  std::string label;                            ///< sensor label in the rawlog
+  std::string label;                               ///< sensor label in the rawlog
   std::optional<core::Isometry> T_vehicle_sensor;  ///< replaces the recorded mounting when given
 };
 

@@ -45,7 +45,7 @@ struct SonarScan {
   core::Isometry T_odom_vehicle = core::Isometry::Identity();
   std::vector<map::ScanPoint> points;  ///< of the stereo layer
   core::Isometry T_vehicle_sonar = core::Isometry::Identity();
-  sonar::LineScan line;                ///< of the line-scan layers, with T_vehicle_sonar
+  sonar::LineScan line;  ///< of the line-scan layers, with T_vehicle_sonar
 };
 
 }  // namespace s2s::mapper

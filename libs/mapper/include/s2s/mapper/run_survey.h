@@ -11,9 +11,9 @@ namespace s2s::mapper {
 /// One run from a rawlog to a folder of products.
 struct SurveyRun {
   std::string rawlog;
-  std::string output;       ///< folder; made when missing, other files in it are left alone
-  double from_s = 0;        ///< seconds from the first record; earlier ones are skipped
-  double to_s = -1;         ///< seconds from the first record; negative: to the end
+  std::string output;  ///< folder; made when missing, other files in it are left alone
+  double from_s = 0;   ///< seconds from the first record; earlier ones are skipped
+  double to_s = -1;    ///< seconds from the first record; negative: to the end
   int threads = 2;
   std::ostream* progress = nullptr;  ///< where progress goes; null: nowhere
 };

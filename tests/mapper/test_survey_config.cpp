@@ -1,0 +1,67 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "s2s/core/error.h"
+#include "s2s/mapper/survey_config.h"
+
+namespace s2s::mapper {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string writeTemporary(const std::string& text) {
+  const auto path = (std::filesystem::temp_directory_path() / "s2s_test_survey_config.ini").string();
+  std::ofstream(path) << text;
+  return path;
+}
+
+TEST(SurveyConfig, EveryShippedFile_Loads) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(S2S_SOURCE_DIR) + "/ini")) {
+    if (entry.path().extension() != ".ini") continue;
+    EXPECT_NO_THROW(loadSurveyConfig(entry.path().string())) << entry.path();
+    ++count;
+  }
+  EXPECT_GE(count, 2);
+}
+
+TEST(SurveyConfig, Printed_ReadsBackToTheSame) {
+  SurveyConfig config;
+  config.mapper.lidar.label = "OS1";
+  config.mapper.lidar.T_vehicle_sensor = core::isometryFromXyzYpr(1, 2, 3, 0.5, 0.25, -0.125);
+  config.odometry.scan.hullBox = {-1, -2, -3, 1, 2, 3};
+  config.graph.loops.radius_m = 7.5;
+  const std::string text = printSurveyConfig(config);
+  EXPECT_EQ(printSurveyConfig(loadSurveyConfig(writeTemporary(text))), text);
+}
+
+TEST(SurveyConfig, MisspelledKey_ErrorNamesTheNearest) {
+  try {
+    loadSurveyConfig(writeTemporary("[mapper]\nlabel_lider = X\n"));
+    FAIL() << "no error";
+  } catch (const core::ConfigError& e) {
+    EXPECT_THAT(e.where(), HasSubstr(":2"));
+    EXPECT_THAT(e.remedy(), HasSubstr("label_lidar"));
+  }
+}
+
+TEST(SurveyConfig, Override_ReplacesTheFilesValue) {
+  const auto path = writeTemporary("[sonar.vertical.leading_edge]\nthreshold = 100\n");
+  const auto config = loadSurveyConfig(path, {"sonar.vertical.leading_edge.threshold=90"});
+  EXPECT_EQ(config.sonar.vertical.leadingEdge.threshold, 90);
+}
+
+TEST(SurveyConfig, OverrideWithoutSection_IsRefused) {
+  EXPECT_THROW(loadSurveyConfig("", {"threshold=90"}), core::ConfigError);
+  EXPECT_THROW(loadSurveyConfig("", {"mapper.on_water"}), core::ConfigError);
+}
+
+TEST(SurveyConfig, MissingFile_IsAConfigError) {
+  EXPECT_THROW(loadSurveyConfig("/no/such/file.ini"), core::ConfigError);
+}
+
+}  // namespace
+}  // namespace s2s::mapper
