@@ -7,9 +7,9 @@
 namespace s2s::mapper {
 namespace {
 
-constexpr double kDuration_s = 6.0;
+constexpr double kDuration_s = 8.0;  // the vessel lies still for two seconds and then sets off
 
-/// A few seconds of the canal with a small LiDAR, recorded once for all tests.
+/// A few seconds of the canal, simulated once for all tests.
 struct Survey {
   std::vector<mrpt::obs::CObservation::Ptr> records;
   core::Trajectory truth;  // T_world_vehicle
@@ -19,8 +19,6 @@ struct Survey {
     const auto scene = sim::loadScene(ini);
     sim::SimulationOptions options;
     options.duration_s = kDuration_s;
-    options.lidar.rows = 32;
-    options.lidar.columns = 512;
     const sim::SurveySimulator simulator(scene, 1, options);
     sim::SimulationSinks sinks;
     sinks.record = [this](const mrpt::obs::CObservation::Ptr& record) { records.push_back(record); };
@@ -38,7 +36,7 @@ const Survey& survey() {
 SurveyConfig config() {
   SurveyConfig config;
   // The simulated vessel's own parts, as its survey.ini has them.
-  config.odometry.scan.hullBox = {-2.0, -0.8, -0.6, 1.3, 0.8, 1.5};
+  config.odometry.scan.hullBox = {-1.25, -0.65, -0.75, 1.1, 0.65, 1.25};
   return config;
 }
 
@@ -75,7 +73,7 @@ TEST(SurveyMapper, ShortSurvey_PosesFollowTheTruth) {
 TEST(SurveyMapper, ShortSurvey_FillsAllLayers) {
   const auto mapper = mapped(config(), 1);
   for (const auto layer : map::kLayers) EXPECT_GT(mapper->map().pointCount(layer), 100u) << map::layerName(layer);
-  EXPECT_GT(mapper->graph().keyframes().size(), 3u);
+  EXPECT_GE(mapper->graph().keyframes().size(), 4u);  // one a metre of some four
   // The vehicle's origin is on the waterline; waves move it by some centimetres.
   EXPECT_NEAR(mapper->waterHeight_m(), 0, 0.2);
 }

@@ -82,7 +82,6 @@ core::OptionTable optionTable(GnssOptions& o) {
 core::OptionTable optionTable(WaterlineOptions& o) {
   core::OptionTable table;
   table.add("enabled", o.enabled, "prior that the vessel floats at the water surface")
-      .add("height_m", o.height_m, "vehicle origin above the surface at rest")
       .add("sigma_m", o.sigma_m, "heave and trim, standard deviation", core::positive())
       .add("drift_sigma_m", o.driftSigma_m, "change of the surface from one section to the next", core::positive())
       .add("section_s", o.section_s, "length of a section", core::positive())

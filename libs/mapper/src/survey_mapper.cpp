@@ -19,6 +19,13 @@ OdometryStage::Options odometryStageOptions(const SurveyConfig& config) {
   return options;
 }
 
+graph::GraphSlamOptions graphOptions(const SurveyConfig& config) {
+  graph::GraphSlamOptions options = config.graph;
+  options.waterline.enabled = options.waterline.enabled && config.mapper.onWater;
+  options.waterline.height_m = -config.mapper.waterline_m;
+  return options;
+}
+
 SonarStage::Options sonarStageOptions(const SurveyConfig& config) {
   SonarStage::Options options;
   options.sonar = config.sonar;
@@ -32,7 +39,7 @@ SurveyMapper::SurveyMapper(const SurveyConfig& config, int threads)
     : config_(config),
       profile_(true),
       router_(config_.mapper, faults_),
-      backend_(config_.graph, config_.map),
+      backend_(graphOptions(config_), config_.map),
       backendWorker_(threads > 1, static_cast<std::size_t>(config_.mapper.queueCapacity)),
       sonar_(sonarStageOptions(config_), faults_,
              [this](const SonarScan& scan) {

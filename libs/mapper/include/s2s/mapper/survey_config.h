@@ -20,6 +20,9 @@ struct SurveyConfig {
   graph::GraphSlamOptions graph;
   map::MapOptions map;
   products::ProductsOptions products;
+
+  /// A vessel floats unless `mapper.onWater` says otherwise, so the graph's waterline prior is on.
+  SurveyConfig() { graph.waterline.enabled = true; }
 };
 
 /// Reads an INI file over the defaults.
