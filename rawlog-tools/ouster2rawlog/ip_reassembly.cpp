@@ -119,7 +119,7 @@ std::optional<UdpDatagram> IpReassembler::addFragment(const Fragment& fragment, 
     covered = std::max(covered, offset + length);
   }
   if (covered < *open.totalBytes) return std::nullopt;
-  const auto datagram = toDatagram(fragment.source, open.data.data(), *open.totalBytes, captureTime_ns);
+  auto datagram = toDatagram(fragment.source, open.data.data(), *open.totalBytes, captureTime_ns);
   open_.erase(fragment.key);
   return datagram;
 }

@@ -104,7 +104,7 @@ mrpt::obs::CObservation::Ptr RawlogReader::next() {
   while (pending_.empty() && !ended_)
     if (const auto object = readRecord()) enqueue(object);
   if (pending_.empty()) return nullptr;
-  const auto observation = pending_.back();
+  auto observation = std::move(pending_.back());
   pending_.pop_back();
   return observation;
 }
