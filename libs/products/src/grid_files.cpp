@@ -3,9 +3,13 @@
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <cpl_string.h>
+#include <fcntl.h>
 #include <gdal_priv.h>
+#include <unistd.h>
 
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <memory>
 #include <mutex>
 
@@ -146,10 +150,34 @@ void writeGeoTiff(const std::string& path, const HeightGrid& grid) {
   file.commit();
 }
 
+namespace {
+
+/// Proves that the disk has room for the file. HDF5, which writes it, crashes at the program's end after a failed
+/// write.
+void requireRoom(const std::string& temporaryPath, std::size_t bytes, const std::string& path) {
+  const int file = ::open(temporaryPath.c_str(), O_CREAT | O_WRONLY | O_TRUNC | O_CLOEXEC, 0644);
+  const int error = file < 0 ? errno : ::posix_fallocate(file, 0, static_cast<off_t>(bytes));
+  if (file >= 0) ::close(file);
+  ::unlink(temporaryPath.c_str());
+  if (error != 0)
+    throw core::OutputError("no room for the grid: " + std::string(std::strerror(error)), path,
+                            "check that the disk has room and that you may write there");
+}
+
+/// Upper bound of a BAG's size: two uncompressed float layers in chunks of 100 x 100, metadata and HDF5's own tables.
+std::size_t largestBag_bytes(const HeightGrid& grid) {
+  constexpr std::size_t kChunk = 100, kOverhead_bytes = 512 * 1024;
+  const auto padded = [](int n) { return (static_cast<std::size_t>(n) + kChunk - 1) / kChunk * kChunk; };
+  return padded(grid.columns) * padded(grid.rows) * 2 * sizeof(float) + kOverhead_bytes;
+}
+
+}  // namespace
+
 void writeBag(const std::string& path, const HeightGrid& grid, core::TimeNs surveyTime) {
   if (grid.columns == 0 || grid.rows == 0)
     throw core::OutputError("the seabed grid has no cells", path, "switch the product off, or check the sonar layers");
   core::AtomicFile file(path);
+  requireRoom(file.temporaryPath(), largestBag_bytes(grid), path);
   const GdalMessages messages;
   GDALDriver* bag = GetGDALDriverManager()->GetDriverByName("BAG");
   GDALDriver* memory = GetGDALDriverManager()->GetDriverByName("MEM");
