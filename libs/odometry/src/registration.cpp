@@ -18,6 +18,9 @@ constexpr double kCauchyWidth = 2.385;
 /// Median of |x| of a unit Gaussian.
 constexpr double kMedianOfAbs = 0.6745;
 
+/// Residuals may be this much smaller than expected and be believed; much smaller ones come from a map that has been
+/// fitted to them.
+constexpr double kLeastScale = 0.5;
 /// The share of the prior in the kernel's width falls by this from one iteration to the next.
 constexpr double kPriorFade = 0.1;
 
@@ -114,7 +117,7 @@ NormalEquations linearise(const BodyPoints& points, const PlaneMap& map, const c
   NormalEquations sum;
   sum.matches = residuals.size();
   sum.residualScale = robustScale(residuals);
-  const double scale = std::max(1.0, sum.residualScale);
+  const double scale = std::max(kLeastScale, sum.residualScale);
   PretendedSum pretended;
   for (const auto& residual : residuals) {
     const double sigma = scale * residual.sigma_m;

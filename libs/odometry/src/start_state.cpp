@@ -15,7 +15,7 @@ constexpr double kMostBias_radps = 0.03;
 
 constexpr double kPoseSigma = 1e-4;  // the first pose defines the frame [m, rad]
 constexpr double kStillSpeedSigma_mps = 0.02;
-constexpr double kRefinedSpeedSigma_mps = 0.3;
+constexpr double kRefinedSpeedSigma_mps = 0.2;
 constexpr double kTiltAccelStill_mps2 = 0.03;  // horizontal acceleration that a mean over the window may hold
 constexpr double kTiltAccelMoving_mps2 = 0.5;
 constexpr double kGravitySizeSigma_mps2 = 0.02;
@@ -146,6 +146,9 @@ StartState refinedStart(const StartState& rough, const InertialFilter& rehearsed
   fromRest.propagate(imu.steps(rest.time, end.time, options.imu.maxGap_s));
   start.state.velocity = R_new_old * end.velocity - fromRest.state().velocity;
   setSigma(start, kVelocity, kRefinedSpeedSigma_mps);
+  // Where nothing in sight tells the speed in some direction, the rehearsal has not learnt it either.
+  start.covariance.block<3, 3>(kVelocity, kVelocity) +=
+      R_new_old * rehearsed.covariance().block<3, 3>(kVelocity, kVelocity) * R_new_old.transpose();
   return start;
 }
 
