@@ -21,6 +21,8 @@ constexpr double kMedianOfAbs = 0.6745;
 /// Residuals may be this much smaller than expected and be believed; much smaller ones come from a map that has been
 /// fitted to them.
 constexpr double kLeastScale = 0.5;
+/// Share of an unknown motion that may show in directions that are seen.
+constexpr double kUnseenLeak = 0.01;
 /// The share of the prior in the kernel's width falls by this from one iteration to the next.
 constexpr double kPriorFade = 0.1;
 
@@ -156,6 +158,23 @@ std::vector<Vector6> removePretended(NormalEquations& equations, double ratio) {
   return unseen;
 }
 
+void allowForUnseen(const std::vector<Vector6>& unseen, const Matrix6& priorCovariance, NormalEquations& equations) {
+  const double lever2 = std::max(1.0, equations.meanLever2_m2);
+  Vector6 metric;
+  metric << Vector3d::Ones(), Vector3d::Constant(lever2);
+  double unknown = 0;  // variance of the way moved along the unseen [m^2]
+  for (const auto& u : unseen) {
+    const Vector6 scaled = metric.asDiagonal() * u;
+    unknown += scaled.dot(priorCovariance * scaled);
+  }
+  if (unknown <= 0) return;
+  // (A^-1 + C)^-1 = A - A (C^-1 + A)^-1 A, which holds for a singular A, too; the solution of A x = b stays.
+  const Matrix6 inverseNoise = (metric / (kUnseenLeak * kUnseenLeak * unknown)).asDiagonal();
+  const Matrix6 gain = (inverseNoise + equations.A).ldlt().solve(equations.A).transpose();
+  equations.b -= (gain * equations.b).eval();
+  equations.A -= (gain * equations.A).eval();
+}
+
 RegistrationResult registerPoints(const BodyPoints& points, const PlaneMap& map, const PoseBelief& prior,
                                   const core::Isometry& T_start, const RegistrationOptions& options) {
   RegistrationResult result;
@@ -173,6 +192,7 @@ RegistrationResult registerPoints(const BodyPoints& points, const PlaneMap& map,
       return result;
     }
     result.degenerateMotions = removePretended(equations, options.degeneracyRatio);
+    allowForUnseen(result.degenerateMotions, prior.covariance, equations);
     result.information = equations.A;
     const Vector6 e = differenceFrom(prior.T_map_body, T);
     Matrix6 J = Matrix6::Identity();

@@ -62,6 +62,12 @@ NormalEquations linearise(const BodyPoints& points, const PlaneMap& map, const c
 /// is reduced to mu - ratio, and to zero if it would be negative; the gradient shrinks alike.
 std::vector<core::Vector6> removePretended(NormalEquations& equations, double ratio);
 
+/// Weakens what a scan says where much is unknown along unseen motions: their directions come from the map and are off
+/// by some milliradians, so that an error along them shows in the others, again and again the same way. Without this
+/// the filter would believe, scan by scan, to know what nothing in sight tells.
+void allowForUnseen(const std::vector<core::Vector6>& unseen, const core::Matrix6& priorCovariance,
+                    NormalEquations& equations);
+
 /// Most probable pose given a prior and the scan's points on the map's planes (iterated, with the points matched anew
 /// in each iteration), and its covariance: the update of an iterated Kalman filter in its pose block.
 RegistrationResult registerPoints(const BodyPoints& points, const PlaneMap& map, const PoseBelief& prior,
