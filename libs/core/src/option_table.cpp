@@ -32,8 +32,16 @@ std::string describe(const Range& range, const std::string& kind) {
   return text;
 }
 
-/// Degrees to nine decimals, so that 45 prints as 45 and not as 45.000000000000007.
-double niceDegrees(double rad) { return std::round(rad * kDegPerRad * 1e9) / 1e9; }
+double roundedDegrees(double rad) { return std::round(rad * kDegPerRad * 1e9) / 1e9; }
+
+/// Degrees that read back to the same radians: nine decimals where they do (45, not 45.000000000000007), else all.
+double niceDegrees(double rad) {
+  const double exact = rad * kDegPerRad;
+  const double rounded = roundedDegrees(rad);
+  for (const double candidate : {rounded, exact, std::nextafter(exact, 0.0), std::nextafter(exact, 2 * exact)})
+    if (candidate / kDegPerRad == rad) return candidate;
+  return rounded;
+}
 
 }  // namespace
 
@@ -72,8 +80,9 @@ std::string printPose(const Isometry& T) {
   const auto pose = toPose(T);
   std::string text;
   for (const double metres : {pose.x(), pose.y(), pose.z()}) text += printDouble(metres) + " ";
-  return text + printDouble(niceDegrees(pose.yaw())) + " " + printDouble(niceDegrees(pose.pitch())) + " " +
-         printDouble(niceDegrees(pose.roll()));
+  // The angles come out of a matrix, which holds them to some 1e-16 only.
+  return text + printDouble(roundedDegrees(pose.yaw())) + " " + printDouble(roundedDegrees(pose.pitch())) + " " +
+         printDouble(roundedDegrees(pose.roll()));
 }
 
 std::string printDouble(double value) {

@@ -1,22 +1,8 @@
 #include "s2s/mapper/backend_stage.h"
 
+#include "s2s/map/sonar_scans.h"
+
 namespace s2s::mapper {
-
-namespace {
-
-map::LineScan mapLineScan(const SonarScan& scan) {
-  map::LineScan line;
-  line.T_vehicle_sonar = scan.T_vehicle_sonar;
-  line.verticalAperture_rad = scan.line.verticalAperture_rad;
-  line.bearingModel = scan.line.bearingModel;
-  line.bearingSigma_rad = scan.line.bearingSigma_rad;
-  for (const auto& r : scan.line.returns)
-    line.returns.push_back({static_cast<float>(r.range_m), static_cast<float>(r.bearing_rad), r.intensity,
-                            static_cast<float>(r.rangeSigma_m)});
-  return line;
-}
-
-}  // namespace
 
 BackendStage::BackendStage(const graph::GraphSlamOptions& graphOptions, const map::MapOptions& mapOptions)
     : graph_(graphOptions), map_(mapOptions) {}
@@ -40,7 +26,8 @@ void BackendStage::addSonarScan(const SonarScan& scan) {
   if (scan.layer == map::Layer::Stereo)
     map_.insertScan(scan.layer, scan.time, scan.T_odom_vehicle, scan.points);
   else
-    map_.insertLineScan(scan.layer, scan.time, scan.T_odom_vehicle, mapLineScan(scan));
+    map_.insertLineScan(scan.layer, scan.time, scan.T_odom_vehicle,
+                        map::toMapLineScan(scan.line, scan.T_vehicle_sonar));
 }
 
 void BackendStage::finish() {
