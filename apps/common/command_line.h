@@ -8,9 +8,9 @@ namespace s2s::apps {
 /// Exit codes of all programs.
 enum ExitCode : int {
   kSuccess = 0,
-  kInternalError = 1,   ///< a fault of the program
-  kUsageError = 2,      ///< wrong command line or configuration
-  kUnusableInput = 3,   ///< input that cannot be read or used
+  kInternalError = 1,  ///< a fault of the program
+  kUsageError = 2,     ///< wrong command line or configuration
+  kUnusableInput = 3,  ///< input that cannot be read or used
   kUnwritableOutput = 4
 };
 

@@ -21,8 +21,8 @@ KeyframeInput keyframeInput(const SyntheticSurvey& survey, std::size_t k);
 /// Root mean square distance between estimate and truth, both from the first keyframe on.
 double rmsError_m(const GraphSlam& slam, const SyntheticSurvey& survey);
 
-/// A town of houses on patches of ground around the path: what a scanner at a pose sees within `range_m` (no occlusion), with 1 cm
-/// of noise. The same seed gives the same town.
+/// A town of houses on patches of ground around the path: what a scanner at a pose sees within `range_m` (no
+/// occlusion), with 1 cm of noise. The same seed gives the same town.
 class SyntheticTown {
  public:
   SyntheticTown(double length_m, double width_m, unsigned seed);
