@@ -28,7 +28,7 @@ constexpr const char* layerName(Layer layer) {
 struct MapPoint {
   Eigen::Vector3d p_map = Eigen::Vector3d::Zero();  ///< metres
   float intensity = 0;                              ///< LiDAR: reflectivity; sonar: preprocessed echo strength 0..255
-  float sigma_m = 0;                                ///< standard deviation of the position (largest axis), metres
+  float sigma_m = 0;                                ///< standard deviation, metres: see share/docs/map.md
   core::TimeNs time = 0;
   Layer layer = Layer::Lidar;
 };
