@@ -25,7 +25,7 @@ TEST(AtomicFile, Commit_LeavesOnlyTheFinishedFile) {
   TempFolder folder;
   core::writeTextFile(folder.file("a.txt"), "whole");
   EXPECT_EQ(test::readBytes(folder.file("a.txt")), "whole");
-  EXPECT_EQ(folder.entryCount(), 1u);
+  EXPECT_EQ(folder.fileCount(), 1u);
 }
 
 TEST(AtomicFile, DestroyedWithoutCommit_LeavesNothingAndKeepsTheOldFile) {
@@ -36,7 +36,7 @@ TEST(AtomicFile, DestroyedWithoutCommit_LeavesNothingAndKeepsTheOldFile) {
     file.stream() << "new";
   }
   EXPECT_EQ(test::readBytes(folder.file("a.txt")), "old");
-  EXPECT_EQ(folder.entryCount(), 1u);
+  EXPECT_EQ(folder.fileCount(), 1u);
 }
 
 TEST(AtomicFile, MissingParents_AreMade) {
@@ -62,7 +62,8 @@ TEST(AtomicFile, TargetIsAFolder_ThrowsOutputErrorAndLeavesNothing) {
   TempFolder folder;
   std::filesystem::create_directory(folder.file("sub"));
   EXPECT_THROW(core::writeTextFile(folder.file("sub"), "x"), core::OutputError);
-  EXPECT_EQ(folder.entryCount(), 1u);
+  EXPECT_TRUE(std::filesystem::is_directory(folder.file("sub")));
+  EXPECT_EQ(folder.fileCount(), 0u);
 }
 
 TEST(AtomicFile, FullDisk_ThrowsOutputErrorAndLeavesNothing) {
@@ -75,5 +76,5 @@ TEST(AtomicFile, FullDisk_ThrowsOutputErrorAndLeavesNothing) {
   setrlimit(RLIMIT_FSIZE, &small);
   EXPECT_THROW(core::writeTextFile(folder.file("a.txt"), std::string(100'000, 'x')), core::OutputError);
   setrlimit(RLIMIT_FSIZE, &before);
-  EXPECT_EQ(folder.entryCount(), 0u);
+  EXPECT_EQ(folder.fileCount(), 0u);
 }

@@ -8,6 +8,7 @@
 #include "s2s/core/error.h"
 #include "s2s/graph/graph_io.h"
 #include "s2s/graph/optimizer.h"
+#include "temp_folder.h"
 
 using namespace s2s;
 using namespace s2s::graph;
@@ -18,12 +19,7 @@ namespace {
 
 class GraphIo : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() / ("s2s_graph_io_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::string path(const std::string& name) const { return folder_ / name; }
+  std::string path(const std::string& name) const { return folder_.file(name); }
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream(path(name)) << text;
     return path(name);
@@ -41,7 +37,7 @@ class GraphIo : public testing::Test {
   }
 
  private:
-  std::filesystem::path folder_;
+  s2s::test::TempFolder folder_;
 };
 
 PoseGraph randomGraph() {

@@ -1,11 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-
 #include "fixed_random.h"
 #include "s2s/graph/graph_io.h"
 #include "s2s/graph/mrpt_network.h"
+#include "temp_folder.h"
 
 using namespace s2s;
 using namespace s2s::graph;
@@ -69,11 +67,11 @@ TEST(ToMrptNetwork, OurGraphFile_IsReadByMrptToTheSame) {
   PoseGraph graph;
   for (int n = 0; n < 3; ++n) graph.nodes.push_back({n, random.pose(10, 0.5), n == 0});
   for (int n = 0; n < 2; ++n) graph.constraints.push_back({n, n + 1, random.pose(2, 0.5), randomInformation(random)});
-  const auto path = std::filesystem::temp_directory_path() / ("s2s_mrpt_" + std::to_string(::getpid()) + ".graph");
+  const s2s::test::TempFolder folder;
+  const auto path = folder.file("three.graph");
   writeMrptGraph(path, graph);
   mrpt::graphs::CNetworkOfPoses3DInf read;
   read.loadFromTextFile(path);
-  std::filesystem::remove(path);
 
   const auto expected = toMrptNetwork(graph);
   ASSERT_EQ(read.nodes.size(), expected.nodes.size());

@@ -62,7 +62,7 @@ TEST(MapView, SavedFiles_HoldAllPoints) {
   mrpt::opengl::COpenGLScene scene;
   ASSERT_TRUE(scene.loadFromFile(folder.file("out.3Dscene")));
   EXPECT_TRUE(scene.getByName("lidar"));
-  EXPECT_EQ(folder.entryCount(), 5u);
+  EXPECT_EQ(folder.fileCount(), 5u);
 }
 
 TEST(MapView, FolderThatCannotBeMade_IsAnOutputError) {

@@ -2,21 +2,27 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "s2s/core/error.h"
 #include "s2s/mapper/survey_config.h"
+#include "temp_folder.h"
 
 namespace s2s::mapper {
 namespace {
 
 using ::testing::HasSubstr;
 
-std::string writeTemporary(const std::string& text) {
-  const auto path = (std::filesystem::temp_directory_path() / "s2s_test_survey_config.ini").string();
-  std::ofstream(path) << text;
-  return path;
-}
+/// Each test has a folder of its own: CTest runs the tests side by side, each in its own process.
+class SurveyConfigText : public ::testing::Test {
+ protected:
+  std::string write(const std::string& text) const {
+    test::writeBytes(folder_.file("survey.ini"), text);
+    return folder_.file("survey.ini");
+  }
+
+ private:
+  test::TempFolder folder_;
+};
 
 TEST(SurveyConfig, EveryShippedFile_Loads) {
   int count = 0;
@@ -28,19 +34,19 @@ TEST(SurveyConfig, EveryShippedFile_Loads) {
   EXPECT_GE(count, 2);
 }
 
-TEST(SurveyConfig, Printed_ReadsBackToTheSame) {
+TEST_F(SurveyConfigText, Printed_ReadsBackToTheSame) {
   SurveyConfig config;
   config.mapper.lidar.label = "OS1";
   config.mapper.lidar.T_vehicle_sensor = core::isometryFromXyzYpr(1, 2, 3, 0.5, 0.25, -0.125);
   config.odometry.scan.hullBox = {-1, -2, -3, 1, 2, 3};
   config.graph.loops.radius_m = 7.5;
   const std::string text = printSurveyConfig(config);
-  EXPECT_EQ(printSurveyConfig(loadSurveyConfig(writeTemporary(text))), text);
+  EXPECT_EQ(printSurveyConfig(loadSurveyConfig(write(text))), text);
 }
 
-TEST(SurveyConfig, MisspelledKey_ErrorNamesTheNearest) {
+TEST_F(SurveyConfigText, MisspelledKey_ErrorNamesTheNearest) {
   try {
-    loadSurveyConfig(writeTemporary("[mapper]\nlabel_lider = X\n"));
+    loadSurveyConfig(write("[mapper]\nlabel_lider = X\n"));
     FAIL() << "no error";
   } catch (const core::ConfigError& e) {
     EXPECT_THAT(e.where(), HasSubstr(":2"));
@@ -48,8 +54,8 @@ TEST(SurveyConfig, MisspelledKey_ErrorNamesTheNearest) {
   }
 }
 
-TEST(SurveyConfig, Override_ReplacesTheFilesValue) {
-  const auto path = writeTemporary("[sonar.vertical.leading_edge]\nthreshold = 100\n");
+TEST_F(SurveyConfigText, Override_ReplacesTheFilesValue) {
+  const auto path = write("[sonar.vertical.leading_edge]\nthreshold = 100\n");
   const auto config = loadSurveyConfig(path, {"sonar.vertical.leading_edge.threshold=90"});
   EXPECT_EQ(config.sonar.vertical.leadingEdge.threshold, 90);
 }

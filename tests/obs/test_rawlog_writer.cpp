@@ -85,7 +85,7 @@ TEST(RawlogWriter, NotClosed_LeavesNothing) {
     obs::RawlogWriter writer(folder.file("a.rawlog"));
     writer.write(imuAt(0));
   }
-  EXPECT_EQ(folder.entryCount(), 0u);
+  EXPECT_EQ(folder.fileCount(), 0u);
 }
 
 TEST(RawlogWriter, BeforeClose_TheOldFileIsIntact) {
@@ -134,7 +134,7 @@ TEST(RawlogWriter, FullDisk_ThrowsOutputErrorAndLeavesNothing) {
     EXPECT_THROW(writeAll(), core::OutputError) << count;
   }
   setrlimit(RLIMIT_FSIZE, &before);
-  EXPECT_EQ(folder.entryCount(), 0u);
+  EXPECT_EQ(folder.fileCount(), 0u);
 }
 
 TEST(RawlogWriter, NotSorted_KeepsTheOrderOfArrival) {

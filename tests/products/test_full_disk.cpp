@@ -16,6 +16,8 @@
 namespace s2s::products {
 namespace {
 
+using test::TempFolder;
+
 /// While it lives, files of this process cannot grow beyond some bytes: writing fails as on a full disk.
 class FullDisk {
  public:

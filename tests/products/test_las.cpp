@@ -11,6 +11,10 @@
 namespace s2s::products {
 namespace {
 
+using test::readBytes;
+using test::TempFolder;
+using test::writeBytes;
+
 /// Reads LAS 1.4 by the byte tables of ASPRS LAS 1.4-R15, with no code of the writer.
 class LasBytes {
  public:

@@ -11,6 +11,9 @@
 namespace s2s::products {
 namespace {
 
+using test::TempFolder;
+using test::writeBytes;
+
 TEST(SceneBuilder, Scene_ReadsBackWithLayersAndPath) {
   const TempFolder folder;
   const SampleMap map;

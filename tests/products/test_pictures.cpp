@@ -12,6 +12,9 @@
 namespace s2s::products {
 namespace {
 
+using test::TempFolder;
+using test::writeBytes;
+
 constexpr Rgb kRed = {200, 30, 30}, kBlue = {30, 30, 200};
 
 Rgb pixel(const cv::Mat& image, int x, int y) {

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "error_text.h"
 #include "s2s/core/error.h"
 #include "s2s/products/ply_reader.h"
 #include "s2s/products/ply_writer.h"
@@ -11,6 +12,10 @@
 namespace s2s::products {
 namespace {
 
+using test::errorText;
+using test::readBytes;
+using test::TempFolder;
+using test::writeBytes;
 using testing::HasSubstr;
 
 map::MapPoint point(double x, double y, double z, float intensity, float sigma, core::TimeNs time, map::Layer layer) {

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "error_text.h"
 #include "s2s/core/atomic_file.h"
 #include "s2s/core/error.h"
 #include "s2s/products/run_summary.h"
@@ -11,6 +12,9 @@
 namespace s2s::products {
 namespace {
 
+using test::errorText;
+using test::TempFolder;
+using test::writeBytes;
 using testing::HasSubstr;
 
 RunSummary sampleSummary() {

@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "error_text.h"
 #include "s2s/core/error.h"
 #include "s2s/products/grid_files.h"
 #include "s2s/products/seabed_gridder.h"
@@ -11,6 +12,10 @@
 namespace s2s::products {
 namespace {
 
+using test::errorText;
+using test::readBytes;
+using test::TempFolder;
+using test::writeBytes;
 using testing::HasSubstr;
 
 constexpr double kWater_m = 0.25;

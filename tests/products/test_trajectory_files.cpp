@@ -3,6 +3,7 @@
 
 #include <random>
 
+#include "error_text.h"
 #include "s2s/core/error.h"
 #include "s2s/products/trajectory_files.h"
 #include "temp_folder.h"
@@ -10,6 +11,10 @@
 namespace s2s::products {
 namespace {
 
+using test::errorText;
+using test::readBytes;
+using test::TempFolder;
+using test::writeBytes;
 using testing::HasSubstr;
 
 core::Trajectory randomTrajectory() {

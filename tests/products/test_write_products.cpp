@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "error_text.h"
 #include "s2s/core/error.h"
 #include "s2s/map/CSeabedSkyMap.h"
 #include "s2s/products/grid_files.h"
@@ -16,6 +17,11 @@
 
 namespace s2s::products {
 namespace {
+
+using test::errorText;
+using test::readBytes;
+using test::TempFolder;
+using test::writeBytes;
 
 RunSummary sampleSummary(const SampleMap& map) {
   RunSummary summary;

@@ -89,7 +89,7 @@ TEST_F(PcdConverter, NothingUsable_IsRefusedAndLeavesNoFile) {
   test::writeBytes(in_.file("1.pcd"), "rubbish");
   EXPECT_THROW(pcd::convertPcdFolder(in_.path(), 10, options_), core::InputError);
   EXPECT_THROW(pcd::convertPcdFolder(in_.path(), 0, options_), core::ConfigError);
-  EXPECT_EQ(out_.entryCount(), 0u);
+  EXPECT_EQ(out_.fileCount(), 0u);
 }
 
 TEST_F(PcdConverter, RealScans_AllBecomeClouds) {

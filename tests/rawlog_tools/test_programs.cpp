@@ -90,7 +90,7 @@ TEST(Programs, UnusableInput_EndsWith3AndLeavesNothing) {
   EXPECT_EQ(run("oculus2rawlog --input " + letter + output).exitCode, 3);
   EXPECT_EQ(run("ouster2rawlog --pcap " + letter + " --metadata " + letter + output).exitCode, 3);
   EXPECT_EQ(run("rawlog-merge " + letter + output).exitCode, 3);
-  EXPECT_EQ(folder.entryCount(), 1u);
+  EXPECT_EQ(folder.fileCount(), 1u);
 }
 
 TEST(Programs, UnwritableOutput_EndsWith4) {

@@ -26,9 +26,12 @@ class TempFolder {
 
   const std::string& path() const { return path_; }
   std::string file(const std::string& name) const { return path_ + "/" + name; }
-  /// Number of entries, hidden ones too.
-  std::size_t entryCount() const {
-    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
+  /// Number of files, hidden ones and those in subfolders too: what was left half written would show here.
+  std::size_t fileCount() const {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path_))
+      count += entry.is_directory() ? 0 : 1;
+    return count;
   }
 
  private:
