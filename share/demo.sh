@@ -28,4 +28,12 @@ $bin/seabed-sky-map "$sim/survey.rawlog" --config "$sim/survey.ini" --output "$m
 echo "== Evaluation against the simulated truth"
 $bin/seabed-sky-eval truth "$map" "$sim/truth" --json "$map/truth.json"
 
+echo "== Control points: retro-reflective targets picked in the map, against their surveyed places"
+points=$sim/truth/control_points.csv
+if $bin/seabed-sky-eval pick "$map" --points "$points" --truth "$sim/truth" --output "$map/picks.csv"; then
+  $bin/seabed-sky-eval control "$map" --points "$points" --picks "$map/picks.csv" --json "$map/control.json"
+else
+  echo "Fewer than three targets were seen in this part of the survey; a longer one sees more (--duration)."
+fi
+
 echo "== Done. Open $map/report.html, or $map/map.3Dscene with SceneViewer3D."

@@ -253,10 +253,10 @@ TEST(MapPictures, EmptyMapWithoutPath_IsStillDrawn) {
 
 TEST(DrawGrid, EmptyCellsStayPaper) {
   HeightGrid grid(0, 0, 1, 2, 1);
-  EXPECT_FALSE(drawGrid(HeightGrid(0, 0, 1, 0, 0), 0, 400, 300).empty());
-  const cv::Mat nothing = drawGrid(grid, 0, 400, 300);
+  EXPECT_FALSE(drawGrid(HeightGrid(0, 0, 1, 0, 0), {}, 400, 300).empty());
+  const cv::Mat nothing = drawGrid(grid, {}, 400, 300);
   grid.height_m[0] = -3;
-  const cv::Mat one = drawGrid(grid, 0, 400, 300);
+  const cv::Mat one = drawGrid(grid, {}, 400, 300);
   cv::Mat difference;
   cv::absdiff(one, nothing, difference);
   // The western half changes; the eastern one only where the colour bar's labels stand, far below.

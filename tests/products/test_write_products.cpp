@@ -159,14 +159,16 @@ TEST(WriteProducts, StrayPointsWorldsAway_CostOnlyThemselves) {
   EXPECT_EQ(lasCount, static_cast<std::uint64_t>(map.lidarPoints + 3 * map.sonarPoints));
 }
 
-TEST(WriteProducts, UnknownWaterHeight_IsTakenFromThePathAndSaid) {
+TEST(WriteProducts, OnLand_NoWaterIsInvented) {
   const TempFolder folder;
   const SampleMap map;
   RunSummary summary = sampleSummary(map);
   summary.waterHeight_m.reset();
   const auto result = writeProducts(map.source(), map.trajectories(), summary, quickOptions(), folder.path());
-  EXPECT_NEAR(result.summary.waterHeight_m.value(), 0, 0.02);  // the path heaves by 2 cm
-  EXPECT_THAT(result.summary.warnings, testing::Contains(testing::HasSubstr("water height")));
+  EXPECT_FALSE(result.summary.waterHeight_m.has_value());
+  EXPECT_TRUE(result.summary.warnings.empty());
+  EXPECT_FALSE(readSummary(folder.file("summary.json")).waterHeight_m.has_value());
+  EXPECT_THAT(readBytes(folder.file("report.html")), testing::Not(testing::HasSubstr("<dt>Depths")));
 }
 
 TEST(WriteProducts, FolderIsAFile_IsAnOutputErrorAndLeavesNothing) {

@@ -26,11 +26,11 @@ double relief(const HeightGrid& grid, int column, int row) {
   return std::clamp(normal.dot(light) / light.z(), 0.45, 1.25);
 }
 
-ColourRamp depthRamp(const HeightGrid& grid, double waterHeight_m) {
+ColourRamp depthRamp(const HeightGrid& grid, double datum_m) {
   std::vector<float> heights;
   for (const float h : grid.height_m)
     if (!std::isnan(h)) heights.push_back(h);
-  if (heights.empty()) return MapColours(0, 1, waterHeight_m - 1, waterHeight_m).sonar;
+  if (heights.empty()) return MapColours(0, 1, datum_m - 1, datum_m).sonar;
   std::sort(heights.begin(), heights.end());
   const auto at = [&](double u) {
     return heights[static_cast<std::size_t>(u * static_cast<double>(heights.size() - 1))];
@@ -64,7 +64,7 @@ void drawAxes(cv::Mat& image, const HeightGrid& grid, const GridPlace& place) {
 
 }  // namespace
 
-cv::Mat drawGrid(const HeightGrid& grid, double waterHeight_m, int width_px, int height_px) {
+cv::Mat drawGrid(const HeightGrid& grid, const HeightDatum& datum, int width_px, int height_px) {
   GridPlace place;
   const int columns = std::max(grid.columns, 1), rows = std::max(grid.rows, 1);
   place.pxPerMetre = std::min((width_px - kLeft_px - kRight_px) / (columns * grid.cell_m),
@@ -76,7 +76,7 @@ cv::Mat drawGrid(const HeightGrid& grid, double waterHeight_m, int width_px, int
   place.west_m = grid.west_m;
   place.south_m = grid.south_m;
   drawAxes(image, grid, place);
-  const ColourRamp ramp = depthRamp(grid, waterHeight_m);
+  const ColourRamp ramp = depthRamp(grid, datum.height_m);
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column) {
       if (!grid.hasValue(column, row)) continue;
@@ -88,8 +88,8 @@ cv::Mat drawGrid(const HeightGrid& grid, double waterHeight_m, int width_px, int
       cv::rectangle(image, cv::Point(place.x(m.x() - half), place.y(m.y() + half)),
                     cv::Point(place.x(m.x() + half), place.y(m.y() - half)), toBgr(colour), cv::FILLED);
     }
-  drawColourBar(image, ramp, "Depth below water [m]", cv::Rect(kLeft_px, high - 42, width_px / 4, 16), waterHeight_m,
-                -1);
+  drawColourBar(image, ramp, "Depth below " + datum.name() + " [m]", cv::Rect(kLeft_px, high - 42, width_px / 4, 16),
+                datum.height_m, -1);
   return image;
 }
 

@@ -70,8 +70,8 @@ struct MapPictures::Implementation {
         options(o),
         bottom_m(c.statistics.heightQuantile_m(kSonarLayers, 0.005)),
         top_m(c.statistics.heightQuantile_m({map::Layer::Lidar}, 0.995)),
-        colours(c.waterHeight_m, c.statistics.heightQuantile_m({map::Layer::Lidar}, 0.97), bottom_m,
-                std::min(c.waterHeight_m, c.statistics.heightQuantile_m(kSonarLayers, 0.98))),
+        colours(c.datum.height_m, c.statistics.heightQuantile_m({map::Layer::Lidar}, 0.97), bottom_m,
+                std::min(c.datum.height_m, c.statistics.heightQuantile_m(kSonarLayers, 0.98))),
         low_m(c.frame.low_m.array() - o.margin_m),
         high_m(c.frame.high_m.array() + o.margin_m),
         obliqueView(makeOblique(), kPaper, SplatRenderer::Shading::EyeDome),
@@ -112,8 +112,8 @@ struct MapPictures::Implementation {
     view.fit(corners(context.frame, low_m, high_m, sectionBottom(), sectionTop()), kSectionBorder_px);
     return view;
   }
-  double sectionBottom() const { return std::min(bottom_m, context.waterHeight_m) - 0.5; }
-  double sectionTop() const { return std::max(top_m, context.waterHeight_m) + 0.5; }
+  double sectionBottom() const { return std::min(bottom_m, context.datum.height_m) - 0.5; }
+  double sectionTop() const { return std::max(top_m, context.datum.height_m) + 0.5; }
 
   void drawLegend(cv::Mat& image, const ParallelView& view) const;
   cv::Mat withLegend(const SplatRenderer& renderer) const;
@@ -171,10 +171,10 @@ void MapPictures::Implementation::drawLegend(cv::Mat& image, const ParallelView&
   const int top = view.height_px, bar = image.cols / 5;
   cv::line(image, {0, top}, {image.cols, top}, toBgr(kFaint), 1);
   drawScaleBar(image, view.pxPerMetreX, 24, top + 44, image.cols / 6);
-  drawColourBar(image, colours.sonar, "Sonar: depth below water [m]", cv::Rect(image.cols / 4, top + 34, bar, 16),
-                context.waterHeight_m, -1);
-  drawColourBar(image, colours.lidar, "LiDAR: height above water [m]",
-                cv::Rect(image.cols / 4 + bar + image.cols / 16, top + 34, bar, 16), context.waterHeight_m, 1);
+  drawColourBar(image, colours.sonar, "Sonar: depth below " + context.datum.name() + " [m]",
+                cv::Rect(image.cols / 4, top + 34, bar, 16), context.datum.height_m, -1);
+  drawColourBar(image, colours.lidar, "LiDAR: height above " + context.datum.name() + " [m]",
+                cv::Rect(image.cols / 4 + bar + image.cols / 16, top + 34, bar, 16), context.datum.height_m, 1);
   drawKey(image, kPathColour, "path (ring: start)", image.cols - image.cols / 5, top + 48);
 }
 
@@ -190,16 +190,16 @@ cv::Mat MapPictures::Implementation::withLegend(const SplatRenderer& renderer) c
 void MapPictures::Implementation::drawHeightAxis(cv::Mat& image, const ParallelView& view) const {
   const double step_m = roundStep(std::max(1e-3, 2 * 40 / view.pxPerMetreY));
   const int left = kSectionBorder_px, right = image.cols - kSectionBorder_px;
-  const double low = sectionBottom() - context.waterHeight_m, high = sectionTop() - context.waterHeight_m;
+  const double low = sectionBottom() - context.datum.height_m, high = sectionTop() - context.datum.height_m;
   for (const double height : ticks(low, high, step_m)) {
     const Eigen::Vector3d place =
-        view.centre_m + Eigen::Vector3d(0, 0, context.waterHeight_m + height - view.centre_m.z());
+        view.centre_m + Eigen::Vector3d(0, 0, context.datum.height_m + height - view.centre_m.z());
     const int y = static_cast<int>(std::lround(view.project(place).y()));
-    const bool water = std::abs(height) < 1e-9;
+    const bool water = context.datum.isWater && std::abs(height) < 1e-9;
     cv::line(image, {left, y}, {right, y}, toBgr(water ? kWaterColour : kFaint), 1);
     drawText(image, stepText(height, step_m), left - 8, y + 5, Align::Right);
   }
-  drawText(image, "height above water [m]", left, 24);
+  drawText(image, "height above " + context.datum.name() + " [m]", left, 24);
 }
 
 void MapPictures::Implementation::drawLengthAxis(cv::Mat& image, const ParallelView& view,
@@ -234,7 +234,7 @@ cv::Mat MapPictures::Implementation::section(const SplatRenderer& renderer, cons
     std::replace(name.begin(), name.end(), '_', ' ');
     x = drawKey(image, layerColour(layer), name, x, y);
   }
-  drawKey(image, kWaterColour, "water surface", x, y);
+  if (context.datum.isWater) drawKey(image, kWaterColour, "water surface", x, y);
   const double exaggeration = view.pxPerMetreY / view.pxPerMetreX;
   std::string text = title + ", " + stepText(options.sectionThickness_m, 0.1) + " m thick";
   if (exaggeration > 1.05) text += ", heights x " + stepText(exaggeration, 0.1);

@@ -96,13 +96,13 @@ void SceneBuilder::add(const map::MapPoint& point) {
 }
 
 void SceneBuilder::write(const std::string& path, const core::Trajectory& trajectory, const core::Trajectory& keyframes,
-                         double waterHeight_m) {
+                         std::optional<double> waterHeight_m) {
   mrpt::opengl::COpenGLScene scene;
   for (const auto& cloud : clouds_)
     if (!cloud->empty()) scene.insert(cloud);
   scene.insert(pathLines(trajectory));
   if (!keyframes.empty()) scene.insert(dots(keyframes));
-  scene.insert(waterGrid(trajectory, waterHeight_m));
+  if (waterHeight_m) scene.insert(waterGrid(trajectory, *waterHeight_m));
   auto frame = mrpt::opengl::stock_objects::CornerXYZ(2.0F);
   frame->setName("map");
   scene.insert(frame);

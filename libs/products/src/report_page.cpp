@@ -123,9 +123,11 @@ std::string keyFigures(const ReportContent& c) {
   out += fact("Map points", grouped(points), "");
   if (c.seabed.cells > 0) {
     out += fact("Seabed mapped", fixed(c.seabed.area_m2, 0), "m&sup2;");
-    const double water = s.waterHeight_m.value_or(0);
-    out += fact("Depths", fixed(water - c.seabed.maxHeight_m, 2) + " &ndash; " + fixed(water - c.seabed.minHeight_m, 2),
-                "m");
+    if (s.waterHeight_m)
+      out += fact("Depths",
+                  fixed(*s.waterHeight_m - c.seabed.maxHeight_m, 2) + " &ndash; " +
+                      fixed(*s.waterHeight_m - c.seabed.minHeight_m, 2),
+                  "m");
   }
   out += fact("Loop closures", grouped(s.loopClosures), "");
   out += fact("Speed of mapping", fixed(s.realtimeFactor(), 2), "&times; real time");
@@ -167,7 +169,7 @@ std::string numbers(const ReportContent& c) {
   out += row("Loop closures", grouped(s.loopClosures));
   std::string source = s.waterHeightSource.empty() ? "" : " (" + escape(s.waterHeightSource) + ")";
   out += row("Height of the water surface in the map frame" + source,
-             s.waterHeight_m ? fixed(*s.waterHeight_m, 3) + " m" : "unknown");
+             s.waterHeight_m ? fixed(*s.waterHeight_m, 3) + " m" : "none known");
   for (const auto& [name, value] : s.figures) out += row("<code>" + escape(name) + "</code>", fixed(value, 3));
   out += "</table>\n<h3>Points by layer</h3><table>\n";
   const std::array<const char*, 4> layers = {"LiDAR", "Sonar stereo: triangulated from both sonars",

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <limits>
 #include <memory>
 
 #include "picture_drawing.h"
@@ -34,19 +35,15 @@ double peakRss_mb() {
   return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
-/// Height of the water if the mapper knows it, else the middle height of the path: the vehicle's origin lies on the
-/// waterline.
-double waterHeight(RunSummary& summary, const core::Trajectory& path) {
-  if (summary.waterHeight_m) return *summary.waterHeight_m;
+/// The water surface if the mapper knows it, else the middle height of the path.
+HeightDatum heightDatum(const RunSummary& summary, const core::Trajectory& path) {
+  if (summary.waterHeight_m) return {*summary.waterHeight_m, true};
   std::vector<double> heights;
   for (const auto& pose : path.poses()) heights.push_back(pose.T.translation().z());
-  if (heights.empty()) return 0;
+  if (heights.empty()) return {0, false};
   const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
   std::nth_element(heights.begin(), middle, heights.end());
-  summary.waterHeight_m = *middle;
-  summary.waterHeightSource = "median height of the path";
-  summary.warnings.emplace_back("the water height is not known; the median height of the path stands for it");
-  return *middle;
+  return {*middle, false};
 }
 
 /// One call of writeProducts.
@@ -61,7 +58,7 @@ class Writing {
         onFile_(onFile),
         crossSection_(SurveyFrame(trajectories.optimised, {}), options.pictures.sectionThickness_m) {
     result_.summary = std::move(summary);
-    waterHeight_m_ = waterHeight(result_.summary, trajectories_.optimised);
+    datum_ = heightDatum(result_.summary, trajectories_.optimised);
   }
 
   ProductsResult run() {
@@ -131,7 +128,10 @@ class Writing {
   bool wantsGrid() const { return options_.geoTiff || options_.bag || options_.report; }
 
   SeabedGridder& gridder() {
-    if (!gridder_) gridder_ = std::make_unique<SeabedGridder>(options_.grid, waterHeight_m_);
+    // Without a water surface no sounding can be too near to it.
+    if (!gridder_)
+      gridder_ = std::make_unique<SeabedGridder>(
+          options_.grid, result_.summary.waterHeight_m.value_or(std::numeric_limits<double>::infinity()));
     return *gridder_;
   }
 
@@ -158,8 +158,8 @@ class Writing {
   }
 
   MapColours colours() const {
-    return {waterHeight_m_, statistics_.heightQuantile_m({map::Layer::Lidar}, 0.98),
-            statistics_.heightQuantile_m(kSonarLayers, 0.01), waterHeight_m_};
+    return {datum_.height_m, statistics_.heightQuantile_m({map::Layer::Lidar}, 0.98),
+            statistics_.heightQuantile_m(kSonarLayers, 0.01), datum_.height_m};
   }
 
   PictureContext pictureContext() const {
@@ -167,7 +167,7 @@ class Writing {
     context.frame = SurveyFrame(trajectories_.optimised, statistics_);
     context.statistics = statistics_;
     context.path = trajectories_.optimised;
-    context.waterHeight_m = waterHeight_m_;
+    context.datum = datum_;
     context.crossSectionStation_m = crossSection_.station_m();
     return context;
   }
@@ -212,7 +212,7 @@ class Writing {
     }
     if (scene)
       file("map.3Dscene", [&](const auto& path) {
-        scene->write(path, trajectories_.optimised, trajectories_.keyframes, waterHeight_m_);
+        scene->write(path, trajectories_.optimised, trajectories_.keyframes, result_.summary.waterHeight_m);
       });
     if (simpleMap) file("map.simplemap", [&](const auto& path) { simpleMap->write(path); });
     if (options_.picture) file("map.png", [&](const auto& path) { writePicture(path, pictures_->oblique()); });
@@ -246,10 +246,9 @@ class Writing {
                                       {"The map from above", "The path's principal direction runs to the right.",
                                        "image/jpeg", encode(pictures_->top(), ".jpg")}};
     if (grid_.columns > 0)
-      out.push_back(
-          {"Seabed grid", "Median depths in cells of the map frame, with relief shading; white: no height.",
-           "image/png",
-           encode(drawGrid(grid_, waterHeight_m_, options_.pictures.width_px, options_.pictures.height_px), ".png")});
+      out.push_back({"Seabed grid", "Median depths in cells of the map frame, with relief shading; white: no height.",
+                     "image/png",
+                     encode(drawGrid(grid_, datum_, options_.pictures.width_px, options_.pictures.height_px), ".png")});
     out.push_back({"Cross section", "A slab across the survey, where LiDAR and sonar see most together.", "image/png",
                    encode(pictures_->crossSection(), ".png")});
     out.push_back({"Long section", "A slab along the survey, through the middle of the path.", "image/png",
@@ -265,7 +264,7 @@ class Writing {
   std::string dir_;
   const std::function<void(const std::string&)>& onFile_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  double waterHeight_m_ = 0;
+  HeightDatum datum_;
   CloudStatistics statistics_;
   std::unique_ptr<SeabedGridder> gridder_;
   CrossSectionFinder crossSection_;

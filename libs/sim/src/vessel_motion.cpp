@@ -67,8 +67,8 @@ void VesselMotion::steer(const Experiment& experiment, const VesselOptions& o) {
   Vector2d position = experiment.waypoints_m[0];
   const Vector2d firstLeg = experiment.waypoints_m[1] - position;
   double heading = std::atan2(firstLeg.y(), firstLeg.x()), yawRate = 0, speed = 0;
-  constexpr double kStep_s = 0.01;
-  constexpr int kStepsPerKnot = static_cast<int>(kKnot_s / kStep_s + 0.5);
+  constexpr int kStepsPerKnot = 25;
+  constexpr double kStep_s = kKnot_s / kStepsPerKnot;
   int afterEnd = 0;
   for (int step = 0; step * kStep_s < kMaxDuration_s && afterEnd <= 4 * kStepsPerKnot; ++step) {
     if (step % kStepsPerKnot == 0) {

@@ -7,6 +7,7 @@
 #include "s2s/core/trajectory.h"
 #include "s2s/map/map_point.h"
 #include "s2s/products/cloud_statistics.h"
+#include "s2s/products/height_datum.h"
 #include "s2s/products/height_grid.h"
 #include "s2s/products/products_options.h"
 #include "s2s/products/survey_frame.h"
@@ -18,7 +19,7 @@ struct PictureContext {
   SurveyFrame frame;
   CloudStatistics statistics;
   core::Trajectory path;  ///< T_map_vehicle
-  double waterHeight_m = 0;
+  HeightDatum datum;
   double crossSectionStation_m = 0;
 };
 
@@ -48,7 +49,7 @@ class MapPictures {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// The seabed grid as depths below the water with relief shading, axes in metres of the map frame.
-cv::Mat drawGrid(const HeightGrid& grid, double waterHeight_m, int width_px, int height_px);
+/// The seabed grid as depths below the datum with relief shading, axes in metres of the map frame.
+cv::Mat drawGrid(const HeightGrid& grid, const HeightDatum& datum, int width_px, int height_px);
 
 }  // namespace s2s::products

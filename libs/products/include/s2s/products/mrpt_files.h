@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,8 @@
 namespace s2s::products {
 
 /// Gathers map points into an MRPT scene: a coloured cloud a layer (named after it), the path, the frame of the map and
-/// a grid on the water surface. It holds only stock MRPT classes, so that SceneViewer3D needs no plugin.
+/// a grid on the water surface, if there is one. It holds only stock MRPT classes, so that SceneViewer3D needs no
+/// plugin.
 class SceneBuilder {
  public:
   /// @param stride only every stride-th point is kept
@@ -25,9 +27,10 @@ class SceneBuilder {
   std::uint64_t kept() const { return kept_; }
 
   /// @param keyframes drawn as dots
+  /// @param waterHeight_m in the map frame; no water surface is drawn when it is not known
   /// @throws core::OutputError
   void write(const std::string& path, const core::Trajectory& trajectory, const core::Trajectory& keyframes,
-             double waterHeight_m);
+             std::optional<double> waterHeight_m);
 
  private:
   MapColours colours_;
