@@ -54,7 +54,9 @@ TEST(ReportPage, NeedsNothingFromOutside) {
 }
 
 TEST(ReportPage, FiguresStandWithTheirUnits) {
-  const std::string page = reportPage(sample());
+  ReportContent content = sample();
+  content.summary.waterHeight_m = 0;
+  const std::string page = reportPage(content);
   EXPECT_THAT(page, HasSubstr("1&#8239;234&#8239;567"));
   EXPECT_THAT(page, HasSubstr("2.25 &ndash; 4.50"));  // depths below a water height of zero
   EXPECT_THAT(page, HasSubstr("1.5 MB"));
