@@ -1,6 +1,6 @@
 # Everything from outside, found once; share/packages.txt gives the Debian package and the reason of each.
 
-find_package(MRPT 2.5 REQUIRED COMPONENTS core system io serialization config rtti math poses img opengl obs maps graphs graphslam slam)
+find_package(MRPT 2.5 REQUIRED COMPONENTS core system io serialization config rtti math poses img opengl obs maps graphs graphslam slam topography)
 find_package(Eigen3 REQUIRED)
 find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs)
 find_package(Ceres REQUIRED)

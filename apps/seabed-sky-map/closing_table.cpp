@@ -39,6 +39,10 @@ std::string closingTable(const products::RunSummary& s, const std::string& outpu
   text += row("pings", count(s.pingsHorizontal) + " horizontal, " + count(s.pingsVertical) + " vertical");
   text += row("keyframes", count(s.keyframes));
   text += row("loop closures", count(s.loopClosures));
+  if (s.gnss)
+    text += row("GNSS", s.gnss->state + mrpt::format(", %s of %s fixes agree with the map",
+                                                     count(s.gnss->fixes - s.gnss->unbelievable).c_str(),
+                                                     count(s.gnss->fixes).c_str()));
   for (const auto layer : map::kLayers)
     text += row(std::string("points ") + map::layerName(layer), count(s.points[static_cast<std::size_t>(layer)]));
   if (s.waterHeight_m) text += row("water height in the map", mrpt::format("%.3f m", *s.waterHeight_m));

@@ -66,6 +66,12 @@ TEST(GnssGuest, SpoofWalkingFiftyMetresAway_IsDistrustedAndDated) {
   // It begins at fix 60 and is beyond 3.5 sigma (1 to 1.3 m) after about 4 m.
   EXPECT_GE(assessment.report.distrustedSince, core::durationNs(60));
   EXPECT_LE(assessment.report.distrustedSince, core::durationNs(68));
+  // One span, from there to the last fix.
+  ASSERT_EQ(assessment.report.spans.size(), 1U);
+  EXPECT_GE(assessment.report.spans[0].from, core::durationNs(60));  // single believable ones are bridged
+  EXPECT_LE(assessment.report.spans[0].from, assessment.report.distrustedSince);
+  EXPECT_EQ(assessment.report.spans[0].to, core::durationNs(99));
+  EXPECT_GT(assessment.report.spans[0].largestDeviation_m, 40);
   ASSERT_TRUE(assessment.report.T_enu_map);
   const Eigen::Vector3d early(80, 0, 0);
   EXPECT_LT((*assessment.report.T_enu_map * early - kTruth_enu_map * early).norm(), 1.5);
@@ -78,6 +84,7 @@ TEST(GnssGuest, SingleMultipathFixes_AreLeftOutAndTheRestTrusted) {
   EXPECT_EQ(assessment.report.state, GnssState::trusted);
   for (const int k : {10, 33, 34, 71}) EXPECT_FALSE(assessment.believable[k]) << k;
   EXPECT_LE(assessment.report.unbelievable, 6);
+  EXPECT_TRUE(assessment.report.spans.empty());  // single fixes are no time of distrust
 }
 
 TEST(GnssGuest, MirroredTrack_IsDistrustedAsAWhole) {

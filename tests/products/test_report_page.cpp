@@ -46,6 +46,19 @@ TEST(ReportPage, TextFromOutside_IsEscaped) {
   EXPECT_THAT(page, HasSubstr("Title &amp; more"));
 }
 
+TEST(ReportPage, DistrustedGnss_StandsWithItsTimes) {
+  ReportContent content = sample();
+  EXPECT_THAT(reportPage(content), Not(HasSubstr("GNSS")));
+  content.summary.gnss.emplace();
+  content.summary.gnss->state = "distrusted";
+  content.summary.gnss->distrusted = true;
+  content.summary.gnss->spans = {{1'733'400'030'000'000'000, 1'733'400'060'000'000'000, 31, 48.25}};
+  const std::string page = reportPage(content);
+  EXPECT_THAT(page, HasSubstr("took no part"));
+  EXPECT_THAT(page, HasSubstr("2024-12-05T12:00:30.000Z"));
+  EXPECT_THAT(page, HasSubstr("48.2 m"));
+}
+
 TEST(ReportPage, NeedsNothingFromOutside) {
   const std::string page = reportPage(sample());
   for (const char* reference : {"http:", "https:", "src=\"/", "<link", "url(", "@import"})

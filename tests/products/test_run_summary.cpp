@@ -55,6 +55,34 @@ TEST(RunSummary, Json_HasTheStatedKeys) {
   EXPECT_EQ(json["data_faults"]["sweeps out of order"], 2);
 }
 
+TEST(RunSummary, DistrustedGnss_ReadsBackWithItsSpans) {
+  const TempFolder folder;
+  RunSummary s = sampleSummary();
+  GnssSummary& gnss = s.gnss.emplace();
+  gnss.state = "distrusted";
+  gnss.distrusted = true;
+  gnss.fixes = 80;
+  gnss.unbelievable = 31;
+  gnss.largestDeviation_m = 48.25;
+  gnss.spans = {{1'733'400'030'000'000'001, 1'733'400'060'000'000'000, 31, 48.25}};
+  gnss.mapOrigin = GnssSummary::Place{55.6617123, 12.5736, 3.5, 271.25};
+  const auto json = nlohmann::json::parse(toJson(s));
+  EXPECT_EQ(json["gnss"]["spans"][0]["from_utc"], "2024-12-05T12:00:30.000Z");
+  core::writeTextFile(folder.file("summary.json"), toJson(s));
+  const auto back = readSummary(folder.file("summary.json")).gnss;
+  ASSERT_TRUE(back);
+  EXPECT_TRUE(back->distrusted);
+  EXPECT_EQ(back->unbelievable, 31U);
+  ASSERT_EQ(back->spans.size(), 1U);
+  EXPECT_EQ(back->spans[0].from, gnss.spans[0].from);
+  EXPECT_EQ(back->spans[0].to, gnss.spans[0].to);
+  ASSERT_TRUE(back->mapOrigin);
+  EXPECT_EQ(back->mapOrigin->latitude_deg, 55.6617123);
+  EXPECT_FALSE(readSummary(folder.file("summary.json")).gnss->state.empty());
+}
+
+TEST(RunSummary, NoGnss_IsNull) { EXPECT_TRUE(nlohmann::json::parse(toJson(RunSummary{}))["gnss"].is_null()); }
+
 TEST(RunSummary, UnknownWaterAndNoTime_AreNullAndZero) {
   const auto json = nlohmann::json::parse(toJson(RunSummary{}));
   EXPECT_TRUE(json["water_height_m"].is_null());

@@ -94,6 +94,26 @@ void countUnbelievable(const std::vector<TiedFix>& fixes, const std::vector<bool
   }
 }
 
+/// Joins unbelievable fixes that at most two believable ones part; fewer than three together are multipath, no span.
+std::vector<GnssSpan> spansOf(const std::vector<TiedFix>& fixes, const std::vector<bool>& believable,
+                              const std::vector<double>& deviations_m) {
+  constexpr int kBridged = 2, kFewest = 3;
+  std::vector<GnssSpan> spans;
+  std::size_t last = 0;
+  for (std::size_t n = 0; n < fixes.size(); ++n) {
+    if (believable[n]) continue;
+    if (spans.empty() || n - last > kBridged + 1) spans.push_back({fixes[n].fix.time, 0, 0, 0});
+    GnssSpan& span = spans.back();
+    span.to = fixes[n].fix.time;
+    ++span.fixes;
+    span.largestDeviation_m = std::max(span.largestDeviation_m, deviations_m[n]);
+    last = n;
+  }
+  spans.erase(std::remove_if(spans.begin(), spans.end(), [](const GnssSpan& s) { return s.fixes < kFewest; }),
+              spans.end());
+  return spans;
+}
+
 }  // namespace
 
 const char* gnssStateName(GnssState state) {
@@ -125,12 +145,14 @@ GnssAssessment assessGnss(const std::vector<TiedFix>& fixes, const std::vector<K
 
   const core::Isometry T_enu_map = robustAlign(pairs, options.gate);
   const std::vector<double> squares = squaredResiduals(pairs, T_enu_map);
+  std::vector<double> deviations_m;
   for (std::size_t n = 0; n < fixes.size(); ++n) {
     assessment.believable[n] = squares[n] <= options.gate * options.gate;
-    const double deviation_m = (T_enu_map * pairs.map[n] - pairs.enu[n]).head<2>().norm();
-    report.largestDeviation_m = std::max(report.largestDeviation_m, deviation_m);
+    deviations_m.push_back((T_enu_map * pairs.map[n] - pairs.enu[n]).head<2>().norm());
+    report.largestDeviation_m = std::max(report.largestDeviation_m, deviations_m.back());
   }
   countUnbelievable(fixes, assessment.believable, report);
+  report.spans = spansOf(fixes, assessment.believable, deviations_m);
   const bool lies = report.longestRun >= options.distrustRun ||
                     report.unbelievable > options.distrustShare * static_cast<double>(report.fixes);
   report.state = lies ? GnssState::distrusted : GnssState::trusted;

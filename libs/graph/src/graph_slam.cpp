@@ -180,7 +180,8 @@ SolveSummary GraphSlam::Impl::solve() {
     statistics_.last = summary;
     ++statistics_.optimisations;
     statistics_.optimisation_s += summary.time_s;
-    const bool again = summary.status != SolveStatus::failed && (isAground(problem) || dropContradictions() > 0);
+    const bool again = summary.status != SolveStatus::failed &&
+                       (isAground(problem) || dropContradictions() > 0 || gnss_.state != problem.gnss.state);
     if (!again) break;
   }
   waiting_ = 0;
@@ -191,7 +192,7 @@ SolveSummary GraphSlam::Impl::solve() {
 void GraphSlam::Impl::takeResult(const SurveyProblem& problem) {
   for (std::size_t k = 0; k < state_.keyframes.size(); ++k)
     state_.keyframes[k].T_map_vehicle = problem.graph->poseAt(k);
-  gnss_ = problem.gnss;
+  gnss_ = assessGnss(state_.fixes, state_.keyframes, options_.gnss).report;
   if (problem.alignment) gnss_.T_enu_map = alignmentFromBlock(problem.alignment);
   waterHeight_m_.reset();
   if (!problem.waterLevels.empty()) waterHeight_m_ = *problem.waterLevels.back();

@@ -72,6 +72,7 @@ core::OptionTable optionTable(GnssOptions& o) {
       .add("min_fixes", o.minFixes, "fixes before GNSS is used", core::atLeast(3))
       .add("drift_per_metre", o.driftPerMetre, "error of the map's shape per metre of track", core::atLeast(0))
       .add("gate", o.gate, "largest residual of a believed fix in standard deviations", core::positive())
+      .add("correlation_s", o.correlation_s, "fixes within it count as one measurement", core::atLeast(0))
       .add("distrust_run", o.distrustRun, "successive unbelievable fixes after which GNSS is distrusted",
            core::atLeast(1))
       .add("distrust_share", o.distrustShare, "share of unbelievable fixes after which GNSS is distrusted", {0, 1})

@@ -18,13 +18,18 @@ void addAnchor(const SurveyState& state, bool gravityKnown, GraphProblem& graph)
   graph.addPrior(0, state.keyframes.front().T_odom_vehicle, sigma.array().square().inverse().matrix().asDiagonal());
 }
 
+/// Number of measurements that share one error lasting `correlation_s`, judged by the time since the last one.
+double countingAsOne(const std::optional<core::TimeNs>& last, core::TimeNs time, double correlation_s) {
+  const double since_s = last ? std::max(core::secondsBetween(*last, time), 0.01) : correlation_s;
+  return std::max(1.0, correlation_s / std::max(since_s, 0.01));
+}
+
 bool addGravity(const SurveyState& state, const GraphSlamOptions& options, GraphProblem& graph) {
   std::optional<core::TimeNs> last;
   for (std::size_t k = 0; k < state.gravity.size(); ++k) {
     if (!state.gravity[k]) continue;
     const core::TimeNs time = state.keyframes[k].time;
-    const double since_s = last ? std::max(core::secondsBetween(*last, time), 0.01) : options.gravityCorrelation_s;
-    const double together = std::max(1.0, options.gravityCorrelation_s / since_s);
+    const double together = countingAsOne(last, time, options.gravityCorrelation_s);
     const double sigma_rad = std::hypot(state.gravity[k]->sigma_rad, options.gravityFloor_rad) * std::sqrt(together);
     graph.add(new GravityFactor(state.gravity[k]->up_vehicle, sigma_rad), nullptr, {graph.pose(k)});
     last = time;
@@ -68,10 +73,14 @@ void addGnss(const SurveyState& state, const GnssOptions& options, SurveyProblem
   const core::Isometry& T = *assessment.report.T_enu_map;
   survey.alignment = graph.addAlignment(
       {T.translation().x(), T.translation().y(), T.translation().z(), std::atan2(T.linear()(1, 0), T.linear()(0, 0))});
+  std::optional<core::TimeNs> last;
   for (std::size_t n = 0; n < state.fixes.size(); ++n) {
     if (!assessment.believable[n]) continue;
     const TiedFix& tied = state.fixes[n];
-    graph.add(new GnssFactor(tied.fix.p_enu, tied.p_keyframe_antenna, tied.fix.sigma_m.cwiseMax(options.minSigma_m)),
+    const double together = countingAsOne(last, tied.fix.time, options.correlation_s);
+    last = tied.fix.time;
+    graph.add(new GnssFactor(tied.fix.p_enu, tied.p_keyframe_antenna,
+                             tied.fix.sigma_m.cwiseMax(options.minSigma_m) * std::sqrt(together)),
               new ceres::CauchyLoss(options.lossWidth), {graph.pose(tied.keyframe), survey.alignment});
   }
 }

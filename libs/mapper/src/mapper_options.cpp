@@ -30,6 +30,7 @@ core::OptionTable optionTable(MapperOptions& o) {
   addSensor(table, "imu", o.imu, "the IMU");
   addSensor(table, "sonar_horizontal", o.sonarHorizontal, "the horizontal sonar");
   addSensor(table, "sonar_vertical", o.sonarVertical, "the vertical sonar");
+  addSensor(table, "gnss", o.gnss, "the GNSS antenna");
   table.add("stereo_pair_window_s", o.stereoPairWindow_s,
             "Pings of the two sonars no further apart than this are a stereo pair", {0.0, 1.0});
   table.add("on_water", o.onWater, "False on land: no water surface is estimated and nothing is cut at it");

@@ -1,5 +1,6 @@
 #include "s2s/mapper/odometry_stage.h"
 
+#include <mrpt/obs/CObservationGPS.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
@@ -33,7 +34,8 @@ OdometryStage::OdometryStage(const Options& options, FaultLog& faults, Output ou
       output_(std::move(output)),
       scanMaker_(options.odometry.scan),
       odometry_(options.odometry),
-      keyframePolicy_(options.keyframes) {}
+      keyframePolicy_(options.keyframes),
+      gnssReader_(options.mapper.gnssReader) {}
 
 void OdometryStage::addImu(const mrpt::obs::CObservation& observation) {
   const auto sample = odometry::imuSampleFrom(dynamic_cast<const mrpt::obs::CObservationIMU&>(observation));
@@ -56,6 +58,14 @@ void OdometryStage::addLidar(const mrpt::obs::CObservation::Ptr& observation) {
   }
   waiting_.push_back(observation);
   drain();
+}
+
+void OdometryStage::addGnss(const mrpt::obs::CObservation& observation) {
+  if (auto fix = gnssReader_.read(dynamic_cast<const mrpt::obs::CObservationGPS&>(observation)))
+    waitingFixes_.push_back(std::move(*fix));
+  else
+    faults_.add("GNSS records without a valid position were not used",
+                core::formatUtc(core::fromMrptTime(observation.timestamp)));
 }
 
 void OdometryStage::finish() {
@@ -82,9 +92,24 @@ void OdometryStage::handle(const odometry::OdometryResult& result) {
     sweepPoses_.append(result.time, result.T_odom_vehicle);
     water_.add(result.time, (result.T_odom_vehicle * Eigen::Vector3d(0, 0, options_.mapper.waterline_m)).z());
     if (keyframePolicy_.accept(result.T_odom_vehicle)) update.keyframe = makeKeyframe(result, *sweep);
+    update.fixes = placedFixes(result.time);
     odometry_.forgetTrajectoryBefore(result.time - core::durationNs(kTrajectoryMemory_s));
   }
   output_(std::move(update));
+}
+
+std::vector<graph::GnssFix> OdometryStage::placedFixes(core::TimeNs until) {
+  std::vector<graph::GnssFix> placed;
+  while (!waitingFixes_.empty() && waitingFixes_.front().time <= until) {
+    graph::GnssFix& fix = waitingFixes_.front();
+    // Fixes from before the first pose have no place in the map.
+    if (const auto T_odom_vehicle = odometry_.trajectory().at(fix.time)) {
+      fix.T_odom_vehicle = *T_odom_vehicle;
+      placed.push_back(std::move(fix));
+    }
+    waitingFixes_.pop_front();
+  }
+  return placed;
 }
 
 std::shared_ptr<KeyframeData> OdometryStage::makeKeyframe(const odometry::OdometryResult& result,

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 
+#include "gnss_summary.h"
 #include "s2s/core/atomic_file.h"
 #include "s2s/core/error.h"
 #include "s2s/core/progress.h"
@@ -67,6 +68,8 @@ products::RunSummary summarize(const SurveyRun& run, const SurveyConfig& config,
     summary.waterHeightSource = "mean height of the hull's waterline along the path";
   }
   summary.warnings = mapper.faults().lines();
+  summary.gnss = gnssSummary(mapper.graph().gnssReport(), mapper.gnssOrigin());
+  if (summary.gnss && summary.gnss->distrusted) summary.warnings.push_back(gnssWarning(*summary.gnss));
   std::map<std::string, mrpt::system::CTimeLogger::TCallStats> stages;
   mapper.profile().getStats(stages);
   for (const auto& [name, stats] : stages) summary.stageTimes_s.emplace_back(name, stats.total_t);

@@ -1,7 +1,10 @@
 #include "s2s/mapper/sensor_router.h"
 
+#include <mrpt/obs/CObservationGPS.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationPointCloud.h>
+
+#include <numeric>
 
 #include "s2s/core/error.h"
 #include "s2s/obs/CObservationImagingSonar.h"
@@ -21,6 +24,8 @@ bool classFits(Role role, const mrpt::obs::CObservation& observation) {
     case Role::SonarHorizontal:
     case Role::SonarVertical:
       return dynamic_cast<const obs::CObservationImagingSonar*>(&observation) != nullptr;
+    case Role::Gnss:
+      return dynamic_cast<const mrpt::obs::CObservationGPS*>(&observation) != nullptr;
     case Role::None:
       break;
   }
@@ -38,6 +43,7 @@ Role SensorRouter::roleOf(const std::string& label) const {
   if (label == options_.imu.label) return Role::Imu;
   if (label == options_.sonarHorizontal.label) return Role::SonarHorizontal;
   if (label == options_.sonarVertical.label) return Role::SonarVertical;
+  if (label == options_.gnss.label) return Role::Gnss;
   return Role::None;
 }
 
@@ -66,10 +72,10 @@ Role SensorRouter::route(mrpt::obs::CObservation& observation, const std::string
     faults_.add("records of '" + label + "' whose time does not advance were dropped", where);
     return Role::None;
   }
-  const std::array<const SensorOptions*, 4> sensors = {&options_.lidar, &options_.imu, &options_.sonarHorizontal,
-                                                       &options_.sonarVertical};
+  const std::array<const SensorOptions*, kRoleCount> sensors = {
+      &options_.lidar, &options_.imu, &options_.sonarHorizontal, &options_.sonarVertical, &options_.gnss};
   if (const auto& T = sensors[index]->T_vehicle_sensor) observation.setSensorPose(core::toPose(*T));
-  if (counts_[0] + counts_[1] + counts_[2] + counts_[3] == 0) first_ = time;
+  if (std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0}) == 0) first_ = time;
   ++counts_[index];
   lastOf_[index] = time;
   first_ = std::min(first_, time);

@@ -16,6 +16,7 @@ using Sections = std::vector<std::pair<std::string, core::OptionTable>>;
 /// Every section but the sonars', which come with functions of their own.
 Sections sectionsOf(SurveyConfig& config) {
   Sections sections = {{"mapper", optionTable(config.mapper)},
+                       {"mapper.gnss", optionTable(config.mapper.gnssReader)},
                        {"odometry", odometry::optionTable(config.odometry)},
                        {"map", map::optionTable(config.map.insertion)},
                        {"map.resolver", map::optionTable(config.map.resolver)},

@@ -61,6 +61,8 @@ void SurveyMapper::push(const mrpt::obs::CObservation::Ptr& observation, const s
       return odometryWorker_.post(timed("odometry: IMU", [this, observation] { odometry_.addImu(*observation); }));
     case Role::Lidar:
       return odometryWorker_.post(timed("odometry: sweep", [this, observation] { odometry_.addLidar(observation); }));
+    case Role::Gnss:
+      return odometryWorker_.post([this, observation] { odometry_.addGnss(*observation); });
     case Role::SonarHorizontal:
     case Role::SonarVertical: {
       const auto ping = std::dynamic_pointer_cast<const obs::CObservationImagingSonar>(observation);
@@ -74,6 +76,10 @@ void SurveyMapper::push(const mrpt::obs::CObservation::Ptr& observation, const s
 void SurveyMapper::onOdometry(OdometryUpdate update) {
   if (const auto keyframe = std::exchange(update.keyframe, nullptr))
     backendWorker_.post(timed("back end: keyframe", [this, keyframe] { backend_.addKeyframe(*keyframe); }));
+  if (!update.fixes.empty())
+    backendWorker_.post([this, fixes = std::move(update.fixes)] {
+      for (const auto& fix : fixes) backend_.addGnss(fix);
+    });
   sonarWorker_.post(timed("sonar: placing, stereo", [this, update = std::move(update)] { sonar_.addPoses(update); }));
 }
 

@@ -192,6 +192,36 @@ std::string numbers(const ReportContent& c) {
   return out + "</table></section>\n";
 }
 
+std::string gnss(const RunSummary& s) {
+  if (!s.gnss) return "";
+  const GnssSummary& g = *s.gnss;
+  std::string out = std::string("<section") + (g.distrusted ? " class=\"warn\"" : "") + "><h2>GNSS, a guest</h2>\n<p>" +
+                    (g.distrusted ? "GNSS contradicted the map and took no part in it."
+                                  : "GNSS is believed only where it agrees with the map&rsquo;s own shape.") +
+                    "</p>\n<table>\n";
+  out += row("State", escape(g.state));
+  out += row("Fixes compared with the map", grouped(g.fixes));
+  out += row("of these in contradiction to it", grouped(g.unbelievable));
+  out += row("Largest horizontal deviation", fixed(g.largestDeviation_m, 1) + " m");
+  if (g.mapOrigin) {
+    out += row("Origin of the map, WGS84",
+               fixed(g.mapOrigin->latitude_deg, 6) + "&deg; " + fixed(g.mapOrigin->longitude_deg, 6) + "&deg;");
+    out += row("Direction of its x axis, clockwise from north", fixed(g.mapOrigin->azimuth_deg, 2) + "&deg;");
+  }
+  out += "</table>\n";
+  if (!g.spans.empty()) {
+    out +=
+        "<h3>When it contradicted the map</h3><table>\n<tr><th>from</th><th>to</th><th class=\"n\">fixes</th>"
+        "<th class=\"n\">by up to</th></tr>\n";
+    for (const auto& span : g.spans)
+      out += "<tr><td>" + core::formatUtc(span.from) + "</td><td>" + core::formatUtc(span.to) +
+             "</td><td class=\"n\">" + grouped(span.fixes) + "</td><td class=\"n\">" +
+             fixed(span.largestDeviation_m, 1) + " m</td></tr>\n";
+    out += "</table>\n";
+  }
+  return out + "</section>\n";
+}
+
 std::string files(const std::vector<ReportFile>& all) {
   static const std::map<std::string, const char*> kMeanings = {
       {"trajectory.tum", "optimised poses of the vehicle in the map, t x y z qx qy qz qw"},
@@ -243,6 +273,7 @@ std::string reportPage(const ReportContent& content) {
   out += warnings(content.summary);
   out += pictures(content.pictures);
   out += numbers(content);
+  out += gnss(content.summary);
   out += files(content.files);
   out += kMeaning;
   if (!content.summary.effectiveIni.empty())

@@ -24,6 +24,55 @@ void take(const Json& json, const char* key, Value& value) {
   if (json.contains(key) && !json[key].is_null()) value = json[key].get<Value>();
 }
 
+Json gnssJson(const GnssSummary& g) {
+  Json json;
+  json["state"] = g.state;
+  json["distrusted"] = g.distrusted;
+  json["fixes"] = g.fixes;
+  json["unbelievable"] = g.unbelievable;
+  json["largest_deviation_m"] = number(milli(g.largestDeviation_m));
+  json["spans"] = Json::array();
+  for (const auto& span : g.spans)
+    json["spans"].push_back({{"from_utc", core::formatUtc(span.from)},
+                             {"to_utc", core::formatUtc(span.to)},
+                             {"from_time_ns", span.from},
+                             {"to_time_ns", span.to},
+                             {"fixes", span.fixes},
+                             {"largest_deviation_m", number(milli(span.largestDeviation_m))}});
+  json["map_origin"] = nullptr;
+  if (g.mapOrigin)
+    json["map_origin"] = {{"latitude_deg", g.mapOrigin->latitude_deg},
+                          {"longitude_deg", g.mapOrigin->longitude_deg},
+                          {"height_m", number(milli(g.mapOrigin->height_m))},
+                          {"x_axis_azimuth_deg", number(milli(g.mapOrigin->azimuth_deg))}};
+  return json;
+}
+
+GnssSummary gnssFromJson(const Json& json) {
+  GnssSummary g;
+  take(json, "state", g.state);
+  take(json, "distrusted", g.distrusted);
+  take(json, "fixes", g.fixes);
+  take(json, "unbelievable", g.unbelievable);
+  take(json, "largest_deviation_m", g.largestDeviation_m);
+  if (json.contains("spans"))
+    for (const auto& entry : json["spans"]) {
+      GnssSummary::Span& span = g.spans.emplace_back();
+      take(entry, "from_time_ns", span.from);
+      take(entry, "to_time_ns", span.to);
+      take(entry, "fixes", span.fixes);
+      take(entry, "largest_deviation_m", span.largestDeviation_m);
+    }
+  if (json.contains("map_origin") && !json["map_origin"].is_null()) {
+    GnssSummary::Place& place = g.mapOrigin.emplace();
+    take(json["map_origin"], "latitude_deg", place.latitude_deg);
+    take(json["map_origin"], "longitude_deg", place.longitude_deg);
+    take(json["map_origin"], "height_m", place.height_m);
+    take(json["map_origin"], "x_axis_azimuth_deg", place.azimuth_deg);
+  }
+  return g;
+}
+
 RunSummary fromJson(const Json& json) {
   RunSummary s;
   take(json, "inputs", s.inputs);
@@ -44,6 +93,7 @@ RunSummary fromJson(const Json& json) {
   if (json.contains("water_height_m") && !json["water_height_m"].is_null())
     s.waterHeight_m = json["water_height_m"].get<double>();
   take(json, "water_height_source", s.waterHeightSource);
+  if (json.contains("gnss") && !json["gnss"].is_null()) s.gnss = gnssFromJson(json["gnss"]);
   take(json, "warnings", s.warnings);
   if (json.contains("data_faults"))
     for (const auto& [name, count] : json["data_faults"].items()) s.dataFaults.emplace_back(name, count);
@@ -80,6 +130,7 @@ std::string toJson(const RunSummary& s) {
     json["points"][map::layerName(layer)] = s.points[static_cast<std::size_t>(layer)];
   json["water_height_m"] = s.waterHeight_m ? number(*s.waterHeight_m) : Json(nullptr);
   json["water_height_source"] = s.waterHeightSource;
+  json["gnss"] = s.gnss ? gnssJson(*s.gnss) : Json(nullptr);
   json["figures"] = Json::object();
   for (const auto& [name, value] : s.figures) json["figures"][name] = number(value);
   json["stage_times_s"] = Json::object();

@@ -169,6 +169,7 @@ void writeSurveyIni(const std::string& path, const Scene& scene, const Simulatio
   add("imu", o.imu.label, o.imu.T_vehicle_imu);
   add("sonar_horizontal", o.sonarHorizontal.label, o.sonarHorizontal.T_vehicle_sensor);
   add("sonar_vertical", o.sonarVertical.label, o.sonarVertical.T_vehicle_sensor);
+  add("gnss", o.gnss.label, o.gnss.T_vehicle_antenna);
   if (!scene.vesselParts.empty())
     text += "\n[odometry]\n// Box around the vessel's own parts, as a tape measure gives it.\nhull_box = " +
             printBox(vesselBox(scene)) + "\n";

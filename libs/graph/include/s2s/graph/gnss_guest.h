@@ -22,7 +22,10 @@ struct GnssOptions {
   /// survey, and leaves the map.
   int distrustRun = 8;
   double distrustShare = 0.3;  ///< and so it is if this share of all fixes is unbelievable
-  double lossWidth = 2.0;      ///< width of the robust (Cauchy) loss in standard deviations
+  /// The error of a fix lasts (orbits, ionosphere, multipath of the same quay), so that all fixes of such a time count
+  /// as one measurement: else hundreds of them would outweigh the map.
+  double correlation_s = 120;
+  double lossWidth = 2.0;  ///< width of the robust (Cauchy) loss in standard deviations
 };
 
 enum class GnssState {
@@ -33,6 +36,13 @@ enum class GnssState {
 };
 const char* gnssStateName(GnssState state);
 
+/// A time in which GNSS contradicted the map.
+struct GnssSpan {
+  core::TimeNs from = 0, to = 0;  ///< first and last unbelievable fix
+  int fixes = 0;                  ///< unbelievable ones
+  double largestDeviation_m = 0;  ///< horizontal
+};
+
 struct GnssReport {
   GnssState state = GnssState::absent;
   int fixes = 0;                            ///< considered, after thinning
@@ -40,6 +50,7 @@ struct GnssReport {
   int longestRun = 0;                       ///< of unbelievable fixes in succession
   double largestDeviation_m = 0;            ///< horizontal, of any fix from the aligned map
   core::TimeNs distrustedSince = 0;         ///< time of the first fix of the longest run, 0 if none
+  std::vector<GnssSpan> spans;              ///< of more than single unbelievable fixes, in order of time
   std::optional<core::Isometry> T_enu_map;  ///< from the believable fixes, for georeferencing
 };
 

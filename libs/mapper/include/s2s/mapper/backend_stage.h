@@ -15,6 +15,7 @@ class BackendStage {
 
   void addKeyframe(const KeyframeData& keyframe);
   void addSonarScan(const SonarScan& scan);
+  void addGnss(const graph::GnssFix& fix) { graph_.addGnss(fix); }
   /// Optimises with all that is known, moves the map and decides the line-scans' elevations anew.
   void finish();
 

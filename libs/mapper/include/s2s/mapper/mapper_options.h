@@ -5,6 +5,7 @@
 
 #include "s2s/core/option_table.h"
 #include "s2s/core/transform.h"
+#include "s2s/mapper/gnss_reader.h"
 
 namespace s2s::mapper {
 
@@ -19,6 +20,8 @@ struct MapperOptions {
   SensorOptions imu{"IMU", {}};
   SensorOptions sonarHorizontal{"SONAR_HORIZONTAL", {}};
   SensorOptions sonarVertical{"SONAR_VERTICAL", {}};
+  SensorOptions gnss{"GNSS", {}};
+  GnssReaderOptions gnssReader;
 
   /// Pings of the two sonars no further apart than this are a stereo pair (15 Hz against 10 Hz: up to 33 ms).
   double stereoPairWindow_s = 0.04;

@@ -8,6 +8,7 @@
 #include "s2s/core/time.h"
 #include "s2s/core/trajectory.h"
 #include "s2s/core/transform.h"
+#include "s2s/graph/keyframe.h"
 #include "s2s/map/scan.h"
 #include "s2s/sonar/leading_edge.h"
 
@@ -36,6 +37,7 @@ struct OdometryUpdate {
   /// one from before.
   core::TimeNs completeUntil = 0;
   std::shared_ptr<KeyframeData> keyframe;  ///< null if the sweep is none
+  std::vector<graph::GnssFix> fixes;       ///< whose time the path has reached
 };
 
 /// What a ping, or a pair of pings, adds to the map.

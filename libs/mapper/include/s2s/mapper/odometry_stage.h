@@ -8,6 +8,7 @@
 
 #include "s2s/graph/keyframe_policy.h"
 #include "s2s/mapper/fault_log.h"
+#include "s2s/mapper/gnss_reader.h"
 #include "s2s/mapper/mapper_options.h"
 #include "s2s/mapper/messages.h"
 #include "s2s/mapper/water_level.h"
@@ -18,7 +19,7 @@
 namespace s2s::mapper {
 
 /// First stage: IMU samples and LiDAR sweeps in, odometry out, one update a sweep; sweeps far enough from the last
-/// keyframe come with all their points, deskewed.
+/// keyframe come with all their points, deskewed. GNSS fixes pass through and get the pose of their time.
 class OdometryStage {
  public:
   struct Options {
@@ -34,12 +35,16 @@ class OdometryStage {
   void addImu(const mrpt::obs::CObservation& observation);
   /// A sweep or a point cloud.
   void addLidar(const mrpt::obs::CObservation::Ptr& observation);
+  /// A record of the GNSS receiver.
+  void addGnss(const mrpt::obs::CObservation& observation);
   /// Nothing more comes: processes what waits.
   void finish();
 
   /// T_odom_vehicle at the end of every sweep that has a pose.
   const core::Trajectory& sweepPoses() const { return sweepPoses_; }
   const WaterLevel& water() const { return water_; }
+  /// Origin of the frame of the GNSS fixes, once there was one.
+  const std::optional<GeodeticPosition>& gnssOrigin() const { return gnssReader_.origin(); }
   std::uint64_t sweepCount() const { return sweepCount_; }
 
  private:
@@ -48,6 +53,8 @@ class OdometryStage {
   std::shared_ptr<KeyframeData> makeKeyframe(const odometry::OdometryResult& result,
                                              const mrpt::obs::CObservation& sweep);
   odometry::DeskewedCloud deskewed(const mrpt::obs::CObservation& sweep, core::TimeNs reference) const;
+  /// The waiting fixes that the trajectory covers, with their poses.
+  std::vector<graph::GnssFix> placedFixes(core::TimeNs until);
   void reportFaults();
 
   Options options_;
@@ -58,6 +65,8 @@ class OdometryStage {
   odometry::MotionAccumulator motion_;
   graph::KeyframePolicy keyframePolicy_;
   std::deque<mrpt::obs::CObservation::Ptr> waiting_;  // sweeps whose pose is not known yet
+  GnssReader gnssReader_;
+  std::deque<graph::GnssFix> waitingFixes_;
   core::Trajectory sweepPoses_;
   WaterLevel water_;
   std::uint64_t keyframeCount_ = 0, sweepCount_ = 0;

@@ -14,7 +14,8 @@
 namespace s2s::mapper {
 
 /// What an observation is to the mapper.
-enum class Role : std::uint8_t { Lidar = 0, Imu = 1, SonarHorizontal = 2, SonarVertical = 3, None = 4 };
+enum class Role : std::uint8_t { Lidar = 0, Imu = 1, SonarHorizontal = 2, SonarVertical = 3, Gnss = 4, None = 5 };
+constexpr std::size_t kRoleCount = 5;  ///< without None
 
 /// Decides by label and class what each observation is, applies the configured mountings, and drops records that would
 /// harm: without time, running backwards, or of a class that the role cannot use. Everything dropped is counted.
@@ -40,8 +41,8 @@ class SensorRouter {
 
   const MapperOptions& options_;
   FaultLog& faults_;
-  std::array<std::uint64_t, 5> counts_{};
-  std::array<core::TimeNs, 5> lastOf_{};
+  std::array<std::uint64_t, kRoleCount + 1> counts_{};  // None is never counted
+  std::array<core::TimeNs, kRoleCount + 1> lastOf_{};
   std::map<std::string, std::string> unusedClasses_;  // class name by label
   core::TimeNs first_ = 0, last_ = 0;
 };

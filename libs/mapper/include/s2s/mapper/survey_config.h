@@ -21,8 +21,9 @@ struct SurveyConfig {
   map::MapOptions map;
   products::ProductsOptions products;
 
-  /// A vessel floats unless `mapper.onWater` says otherwise, so the graph's waterline prior is on.
-  SurveyConfig() { graph.waterline.enabled = true; }
+  /// A vessel floats unless `mapper.onWater` says otherwise, so the graph's waterline prior is on; GNSS is welcome as
+  /// a guest.
+  SurveyConfig() { graph.waterline.enabled = graph.gnss.enabled = true; }
 };
 
 /// Reads an INI file over the defaults.

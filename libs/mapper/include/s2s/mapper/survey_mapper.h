@@ -49,6 +49,8 @@ class SurveyMapper {
   core::Trajectory keyframeTrajectory() const;
   /// Mean height of the water surface in the map frame; zero on land.
   double waterHeight_m() const;
+  /// Origin of the east-north-up frame that `graph().gnssReport()` refers to.
+  const std::optional<GeodeticPosition>& gnssOrigin() const { return odometry_.gnssOrigin(); }
   std::uint64_t sweepCount() const { return odometry_.sweepCount(); }
   const SensorRouter& sensors() const { return router_; }
   /// @}

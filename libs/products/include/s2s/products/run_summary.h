@@ -11,6 +11,27 @@
 
 namespace s2s::products {
 
+/// What became of GNSS, the guest.
+struct GnssSummary {
+  struct Span {
+    core::TimeNs from = 0, to = 0;
+    std::uint64_t fixes = 0;
+    double largestDeviation_m = 0;
+  };
+  /// Where the map's origin lies and where its x axis points, WGS84.
+  struct Place {
+    double latitude_deg = 0, longitude_deg = 0, height_m = 0;
+    double azimuth_deg = 0;  ///< of the x axis, clockwise from north
+  };
+  std::string state;               ///< "trusted", "distrusted", "too short to align", "absent" (switched off)
+  bool distrusted = false;         ///< took no part in the map
+  std::uint64_t fixes = 0;         ///< considered
+  std::uint64_t unbelievable = 0;  ///< of these, in contradiction to the map
+  double largestDeviation_m = 0;   ///< horizontal, from the aligned map
+  std::vector<Span> spans;         ///< when it contradicted the map
+  std::optional<Place> mapOrigin;  ///< while trusted
+};
+
 /// What a mapping run was and what became of it: filled by the mapper, completed and written by `writeProducts`.
 struct RunSummary {
   std::vector<std::string> inputs;  ///< rawlog files
@@ -31,6 +52,8 @@ struct RunSummary {
 
   std::optional<double> waterHeight_m;  ///< height of the water surface in the map frame, when it is known
   std::string waterHeightSource;        ///< e.g. "configured", "estimated from the LiDAR"
+
+  std::optional<GnssSummary> gnss;  ///< nothing without fixes
 
   /// Faults of the data by kind, e.g. {"records out of order", 3}.
   std::vector<std::pair<std::string, std::uint64_t>> dataFaults;
