@@ -82,6 +82,107 @@ TEST(LeadingEdge, SeveralReturns_FindsTheSurfaceBehindTheFirst) {
   EXPECT_EQ(scan.returns[1].order, 1);
 }
 
+/// A level bed of Rayleigh speckle behind a silent water column, its first bin depending on the bearing.
+cv::Mat speckledBed(const PingGeometry& geometry, double meanEcho, double nearest_m, unsigned seed) {
+  std::mt19937 random(seed);
+  std::exponential_distribution<double> power(1.0);
+  cv::Mat image(static_cast<int>(geometry.rangeCount), static_cast<int>(geometry.beamCount()), CV_8U, cv::Scalar(0));
+  for (int beam = 0; beam < image.cols; ++beam) {
+    const double edge_m = nearest_m / std::cos(geometry.bearings_rad[static_cast<std::size_t>(beam)]);
+    for (int bin = 0; bin < image.rows; ++bin)
+      if (geometry.range_m(bin) >= edge_m && geometry.range_m(bin) < edge_m + 2)
+        image.at<std::uint8_t>(bin, beam) =
+            cv::saturate_cast<std::uint8_t>(meanEcho * std::sqrt(power(random) / 0.785));  // mean of the amplitude
+  }
+  return image;
+}
+
+PingGeometry fineGeometry() {
+  auto geometry = geometryOf(test::emptyPing(256, 600));
+  geometry.rangeResolution_m = 0.0125;
+  return geometry;
+}
+
+TEST(LeadingEdge, SpeckleDelay_IsTakenOut) {
+  const auto geometry = fineGeometry();
+  // A dim bed: half of its cells do not exceed the threshold of 80.
+  const cv::Mat image = speckledBed(geometry, 80, 3.0, 4);
+  LeadingEdgeOptions options;
+  const auto errors = [&](const LineScan& scan) {
+    double sum = 0, squares = 0;
+    for (const auto& r : scan.returns) {
+      const double error = r.range_m - 3.0 / std::cos(r.bearing_rad);
+      sum += error;
+      squares += error * error;
+    }
+    const auto n = static_cast<double>(scan.returns.size());
+    return std::pair(sum / n, std::sqrt(squares / n));
+  };
+  const auto [lateBy_m, spread_m] = errors(findLeadingEdge(image, geometry, options));
+  options.speckleWindow_rad = 3 * test::kDeg;
+  const auto scan = findLeadingEdge(image, geometry, options);
+  const auto [left_m, leftSpread_m] = errors(scan);
+  EXPECT_GT(lateBy_m, 0.012);  // or the test would show nothing
+  // The bins are coarser than the model of a continuous delay: half a bin may remain.
+  EXPECT_LT(std::abs(left_m), 0.5 * geometry.rangeResolution_m);
+  EXPECT_LT(leftSpread_m, 0.8 * spread_m);
+  // What the ranges claim: about two thirds of them within one standard deviation, nearly all within three.
+  int within1 = 0, within3 = 0;
+  for (const auto& r : scan.returns) {
+    const double error = std::abs(r.range_m - 3.0 / std::cos(r.bearing_rad));
+    within1 += error <= r.rangeSigma_m ? 1 : 0;
+    within3 += error <= 3 * r.rangeSigma_m ? 1 : 0;
+  }
+  EXPECT_GT(within1, 0.6 * static_cast<double>(scan.returns.size()));
+  EXPECT_GT(within3, 0.97 * static_cast<double>(scan.returns.size()));
+}
+
+TEST(LeadingEdge, SomethingInFrontOfTheBed_IsNotMovedBackToIt) {
+  const auto geometry = fineGeometry();
+  cv::Mat image = speckledBed(geometry, 150, 3.0, 5);
+  const int bin = static_cast<int>(std::lround(geometry.binAt(2.5)));
+  image.col(120).rowRange(bin, bin + 8).setTo(200);
+  LeadingEdgeOptions options;
+  options.speckleWindow_rad = 2 * test::kDeg;
+  const auto scan = findLeadingEdge(image, geometry, options);
+  for (const auto& r : scan.returns)
+    if (r.beam == 120) {
+      EXPECT_NEAR(r.range_m, 2.5, geometry.rangeResolution_m);
+    }
+}
+
+TEST(LeadingEdge, RidgeBehindTheBed_IsAReturn) {
+  const auto geometry = fineGeometry();
+  cv::Mat image = speckledBed(geometry, 90, 3.0, 6);
+  const int bin = static_cast<int>(std::lround(geometry.binAt(4.0)));
+  for (int beam = 110; beam < 130; ++beam) image.col(beam).rowRange(bin, bin + 9).setTo(255);
+  LeadingEdgeOptions options;
+  options.ridges = true;
+  const auto scan = findLeadingEdge(image, geometry, options);
+  int found = 0, others = 0;
+  for (const auto& r : scan.returns) {
+    if (r.order == 0) continue;
+    const bool isRidge = r.beam >= 110 && r.beam < 130;
+    (isRidge ? found : others) += 1;
+    EXPECT_TRUE(r.isRidge);
+    // Its middle; neighbouring speckle may add a bin or two to it.
+    if (isRidge) {
+      EXPECT_NEAR(r.range_m, geometry.range_m(bin + 4), 2 * geometry.rangeResolution_m);
+    }
+  }
+  EXPECT_EQ(found, 20);
+  // Speckle alone exceeds twice its mean over seven independent cells with a probability of 1e-4 a cell at the most.
+  EXPECT_LE(others, 2);
+}
+
+TEST(LeadingEdge, BrightBed_HasNoRidge) {
+  const auto geometry = fineGeometry();
+  const cv::Mat image = speckledBed(geometry, 230, 3.0, 7);
+  LeadingEdgeOptions options;
+  options.ridges = true;
+  for (const auto& r : findLeadingEdge(image, geometry, options).returns) EXPECT_EQ(r.order, 0);
+}
+
 TEST(LeadingEdge, RingDown_IsIgnored) {
   cv::Mat image(200, 50, CV_8U, cv::Scalar(0));
   image.rowRange(0, 9).setTo(255);  // up to 0.45 m

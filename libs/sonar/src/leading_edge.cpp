@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edge_refinement.h"
+
 namespace s2s::sonar {
 
 namespace {
@@ -73,11 +75,13 @@ LineScan findLeadingEdge(const cv::Mat& image, const PingGeometry& geometry, con
       const auto column = static_cast<int>(beam);
       scan.returns.push_back({static_cast<std::uint32_t>(beam), static_cast<std::uint32_t>(bin),
                               geometry.bearings_rad[beam], geometry.range_m(bin), sigma_m,
-                              static_cast<float>(image.at<std::uint8_t>(bin, column)),
-                              static_cast<std::uint8_t>(order)});
+                              static_cast<float>(image.at<std::uint8_t>(bin, column)), static_cast<std::uint8_t>(order),
+                              false});
       bin = order + 1 < options.maxReturns ? nextBin(image, column, bin, gapBins, threshold) : kNone;
     }
   }
+  if (options.ridges) addRidges(image, geometry, options, scan);
+  if (options.speckleWindow_rad > 0) correctSpeckleDelay(options.speckleWindow_rad, scan);
   return scan;
 }
 

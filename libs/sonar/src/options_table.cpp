@@ -89,6 +89,13 @@ core::OptionTable optionTable(LeadingEdgeOptions& o) {
   table.add("range_sigma_m", o.rangeSigma_m, "standard deviation of an edge's range, without the bin's rounding",
             core::atLeast(0));
   table.addDegrees("bearing_sigma_deg", o.bearingSigma_rad, "standard deviation of a beam's bearing", core::atLeast(0));
+  table.addDegrees("speckle_window_deg", o.speckleWindow_rad,
+                   "returns up to this angle from a beam tell how late speckle makes its edge; 0: the paper's edge",
+                   {0, 20});
+  table.add("ridges", o.ridges, "bright surfaces behind the first, such as a wall behind the bed, are returns too");
+  table.add("ridge_level", o.ridgeLevel, "intensity (of 255) that a ridge exceeds in the mean", {0, 255});
+  table.add("ridge_contrast", o.ridgeContrast, "and how many times the mean echo in front of it", core::atLeast(1));
+  table.add("ridge_length_m", o.ridgeLength_m, "length over which a ridge's mean is taken", core::positive());
   return table;
 }
 

@@ -2,7 +2,14 @@
 
 namespace s2s::sonar {
 
-DeviceOptions horizontalDefaults() { return {}; }
+DeviceOptions horizontalDefaults() {
+  DeviceOptions options;
+  // Beyond the paper, whose edge is 0 and false: where the bed meets the aperture's edge at a grazing angle its echo is
+  // dim and mostly speckle, and the wall's stands behind it.
+  options.leadingEdge.speckleWindow_rad = 2.0 * M_PI / 180.0;
+  options.leadingEdge.ridges = true;
+  return options;
+}
 
 DeviceOptions verticalDefaults() {
   DeviceOptions options;

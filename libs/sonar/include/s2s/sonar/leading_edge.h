@@ -9,7 +9,8 @@
 
 namespace s2s::sonar {
 
-/// Paper, section "Leading Edge Detection": the nearest range of each beam whose intensity exceeds a threshold.
+/// Paper, section "Leading Edge Detection": the nearest range of each beam whose intensity exceeds a threshold. The
+/// defaults are the paper's.
 struct LeadingEdgeOptions {
   double threshold = 80;       ///< of 255; the paper takes 80 for the Oculus and 130 for the BlueView
   double minRange_m = 0.5;     ///< nearer bins hold the transducer's ring-down
@@ -17,6 +18,15 @@ struct LeadingEdgeOptions {
   double returnGap_m = 0.3;    ///< a further return begins after at least this length at or below the threshold
   double rangeSigma_m = 0.01;  ///< of the range of an edge, without the bin's own rounding
   double bearingSigma_rad = 0.15 * M_PI / 180.0;
+  /// Speckle delays an edge: a beam's first cell may be dark by chance. The returns within this angle of a beam tell
+  /// together how late that beam's is, and it is put right. 0 leaves the nearest bin as it is (the paper).
+  double speckleWindow_rad = 0;
+  /// A surface behind the first on a beam need not be preceded by silence: a wall behind the bed stands out of the
+  /// bed's echo as a short bright ridge. If set, the brightest ridge of each beam is a further return.
+  bool ridges = false;
+  double ridgeLevel = 200;       ///< of 255: mean intensity that a ridge exceeds
+  double ridgeContrast = 2;      ///< and how many times that of the echo in front of it
+  double ridgeLength_m = 0.085;  ///< length over which that mean is taken; nothing shorter is a ridge
 };
 
 /// One leading edge of a beam.
@@ -28,6 +38,7 @@ struct LineReturn {
   double rangeSigma_m = 0;
   float intensity = 0;     ///< preprocessed echo strength, 0..255
   std::uint8_t order = 0;  ///< 0 for the first return of its beam, 1 for the surface behind it, ...
+  bool isRidge = false;    ///< its range is that of the ridge's middle
 };
 
 /// Points of an arc, in the sonar's frame, from the lower to the upper edge of the aperture.

@@ -18,7 +18,8 @@ struct DeviceOptions {
   FeatureOptions features;
 };
 
-/// The paper's settings of the horizontal sonar (Oculus M750d) and of the vertical one (BlueView M900-2250-130-Mk2).
+/// The paper's settings of the horizontal sonar (Oculus M750d) and of the vertical one (BlueView M900-2250-130-Mk2);
+/// the former with a leading edge freed of the delay by speckle, and with ridges behind it.
 DeviceOptions horizontalDefaults();
 DeviceOptions verticalDefaults();
 
