@@ -80,8 +80,19 @@ TEST(ConsistencySet, LoneClosure_WaitsForSupport) {
   set.add(chain, trueClosure(survey, 5, 185, random));
   EXPECT_FALSE(set.chosen()[0]);
   set.add(chain, trueClosure(survey, 10, 190, random));
-  EXPECT_TRUE(set.chosen()[0]);
-  EXPECT_TRUE(set.chosen()[1]);
+  EXPECT_EQ(set.chosen(), (std::vector<bool>{false, false}));
+  EXPECT_EQ(set.waiting(), (std::vector<bool>{true, true}));
+  set.add(chain, trueClosure(survey, 15, 195, random));
+  EXPECT_EQ(set.chosen(), (std::vector<bool>{true, true, true}));
+}
+
+TEST(ConsistencySet, ClosuresFarApart_DoNotSupportEachOther) {
+  FixedRandom random(92);
+  const SyntheticSurvey survey = makeLaps(2, 60, 30, 93);
+  const OdometryChain chain = chainOf(survey);
+  ConsistencySet set({});
+  for (const int k : {5, 55, 105}) set.add(chain, trueClosure(survey, k, 180 + k, random));
+  EXPECT_EQ(set.chosen(), (std::vector<bool>{false, false, false}));
 }
 
 TEST(ConsistencySet, BannedClosure_IsNotChosenAgain) {
@@ -89,10 +100,10 @@ TEST(ConsistencySet, BannedClosure_IsNotChosenAgain) {
   const SyntheticSurvey survey = makeLaps(2, 60, 30, 89);
   const OdometryChain chain = chainOf(survey);
   ConsistencySet set({});
-  for (const int k : {5, 10, 15}) set.add(chain, trueClosure(survey, k, 180 + k, random));
+  for (const int k : {5, 10, 15, 20}) set.add(chain, trueClosure(survey, k, 180 + k, random));
   set.ban(1);
   set.choose();
-  EXPECT_EQ(set.chosen(), (std::vector<bool>{true, false, true}));
+  EXPECT_EQ(set.chosen(), (std::vector<bool>{true, false, true, true}));
 }
 
 TEST(ConsistencySet, MoreThanSixtyFourClosures_AreAllCompared) {

@@ -46,19 +46,38 @@ double pairChi2(const OdometryChain& chain, const LoopClosure& a, const LoopClos
   return mahalanobis(a.T_from_to * newer * afterNewer, covariance);
 }
 
+namespace {
+
+/// True if both closures join the same two stretches of path.
+bool areSideBySide(const OdometryChain& chain, const LoopClosure& a, const LoopClosure& b, double stretch_m) {
+  return chain.travelled_m(a.from, b.from) <= stretch_m && chain.travelled_m(a.to, b.to) <= stretch_m;
+}
+
+void setBit(std::vector<std::uint64_t>& row, int bit) {
+  row[static_cast<std::size_t>(bit) / 64] |= std::uint64_t{1} << (bit % 64);
+}
+
+}  // namespace
+
 int ConsistencySet::add(const OdometryChain& chain, const LoopClosure& closure) {
   const int number = static_cast<int>(closures_.size());
   const std::size_t words = static_cast<std::size_t>(number) / 64 + 1;
-  for (auto& row : agrees_) row.resize(words, 0);
-  agrees_.emplace_back(words, 0);
+  for (auto* rows : {&agrees_, &beside_}) {
+    for (auto& row : *rows) row.resize(words, 0);
+    rows->emplace_back(words, 0);
+  }
   for (int other = 0; other < number; ++other) {
     if (banned_[other] || pairChi2(chain, closures_[other], closure) > options_.chi2) continue;
-    agrees_[other][static_cast<std::size_t>(number) / 64] |= std::uint64_t{1} << (number % 64);
-    agrees_[number][static_cast<std::size_t>(other) / 64] |= std::uint64_t{1} << (other % 64);
+    setBit(agrees_[other], number);
+    setBit(agrees_[number], other);
+    if (!areSideBySide(chain, closures_[other], closure, options_.stretch_m)) continue;
+    setBit(beside_[other], number);
+    setBit(beside_[number], other);
   }
   closures_.push_back(closure);
   banned_.push_back(false);
   chosen_.push_back(false);
+  waiting_.push_back(false);
   // A larger set than the present one can only contain the new closure.
   take(grow(number, byAgreement()));
   return number;
@@ -81,8 +100,14 @@ void ConsistencySet::take(std::vector<int> clique) {
   if (clique.size() <= best_.size()) return;
   best_ = std::move(clique);
   std::fill(chosen_.begin(), chosen_.end(), false);
-  if (static_cast<int>(best_.size()) < options_.minSupport) return;
-  for (const int c : best_) chosen_[c] = true;
+  std::fill(waiting_.begin(), waiting_.end(), false);
+  Row members(agrees_.empty() ? 0 : agrees_.front().size(), 0);
+  for (const int c : best_) setBit(members, c);
+  for (const int c : best_) {
+    int support = 1;
+    for (std::size_t w = 0; w < members.size(); ++w) support += __builtin_popcountll(members[w] & beside_[c][w]);
+    (support >= options_.minSupport ? chosen_ : waiting_)[c] = true;
+  }
 }
 
 std::vector<int> ConsistencySet::grow(int seed, const std::vector<int>& order) const {
@@ -101,6 +126,7 @@ void ConsistencySet::choose() {
   const std::vector<int> order = byAgreement();
   best_.clear();
   std::fill(chosen_.begin(), chosen_.end(), false);
+  std::fill(waiting_.begin(), waiting_.end(), false);
   for (std::size_t s = 0; s < std::min(order.size(), kStarts); ++s) take(grow(order[s], order));
 }
 

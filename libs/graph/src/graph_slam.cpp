@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "closure_verifier.h"
+#include "false_closure_source.h"
 #include "marginals.h"
 #include "s2s/core/error.h"
 #include "s2s/graph/factors/gnss_factor.h"
@@ -49,7 +50,8 @@ class GraphSlam::Impl {
       : options_(options),
         consistency_(options.consistency),
         search_(options.loops, options.places),
-        verifier_(options.loops, options.registration) {}
+        verifier_(options.loops, options.registration),
+        falseClosures_(options.falseClosures, options.loops, options.consistency, options.registration) {}
 
   KeyframeUpdate addKeyframe(const KeyframeInput& input);
   void addGnss(const GnssFix& fix);
@@ -79,6 +81,7 @@ class GraphSlam::Impl {
   std::vector<int> considered_;  ///< number in state_.closures of each closure in consistency_
   LoopSearch search_;
   ClosureVerifier verifier_;
+  FalseClosureSource falseClosures_;
   GraphStatistics statistics_;
   int waiting_ = 0;  ///< changes of the closure set since the last optimisation
   mutable std::unique_ptr<Marginals> marginals_;
@@ -125,6 +128,7 @@ void GraphSlam::Impl::searchClosures(KeyframeUpdate& update) {
     ++update.candidates;
     consider(verifier_.verify(state_, candidate));
   }
+  for (const LoopClosure& closure : falseClosures_.make(state_, update.candidates)) consider(closure);
   update.accepted = applyChoice();
 }
 
@@ -142,12 +146,11 @@ void GraphSlam::Impl::consider(LoopClosure closure) {
 /// Gives every considered closure the status that follows from the present choice; returns how many are newly accepted.
 int GraphSlam::Impl::applyChoice() {
   int accepted = 0;
-  const std::vector<bool>& chosen = consistency_.chosen();
-  const bool any = std::find(chosen.begin(), chosen.end(), true) != chosen.end();
+  const std::vector<bool>&chosen = consistency_.chosen(), &waiting = consistency_.waiting();
   for (std::size_t c = 0; c < considered_.size(); ++c) {
     ClosureStatus& status = state_.closures[considered_[c]].status;
     if (status == ClosureStatus::rejectedByOptimiser) continue;
-    const ClosureStatus unchosen = any ? ClosureStatus::rejectedByOthers : ClosureStatus::pending;
+    const ClosureStatus unchosen = waiting[c] ? ClosureStatus::pending : ClosureStatus::rejectedByOthers;
     const ClosureStatus now = chosen[c] ? ClosureStatus::accepted : unchosen;
     if (now == ClosureStatus::accepted && status != now) ++accepted;
     if ((now == ClosureStatus::accepted) != (status == ClosureStatus::accepted)) ++waiting_;

@@ -56,7 +56,9 @@ core::OptionTable optionTable(RegistrationOptions& o) {
 core::OptionTable optionTable(ConsistencyOptions& o) {
   core::OptionTable table;
   table.add("chi2", o.chi2, "gate of the agreement tests, 6 degrees of freedom", core::positive())
-      .add("min_support", o.minSupport, "closures that must agree before one is believed", core::atLeast(1))
+      .add("min_support", o.minSupport,
+           "closures between the same stretches of path that must agree before one is believed", core::atLeast(1))
+      .add("stretch_m", o.stretch_m, "length of such a stretch", core::positive())
       .add("drift_translation_m", o.driftTranslation_m, "assumed drift of the odometry after 1 m, random walk",
            core::positive())
       .addDegrees("drift_rotation_deg", o.driftRotation_rad, "and of its rotation", core::positive());
@@ -89,6 +91,14 @@ core::OptionTable optionTable(WaterlineOptions& o) {
       .add("loss_width", o.lossWidth, "width of the robust loss in standard deviations", core::positive())
       .add("give_up_share", o.giveUpShare, "share of keyframes off the surface after which the prior is dropped",
            {0, 1});
+  return table;
+}
+
+core::OptionTable optionTable(FalseClosureOptions& o) {
+  core::OptionTable table;
+  table.add("share", o.share, "to test robustness: share of the candidates that are made wrong; 0: none", {0, 0.9})
+      .add("seed", o.seed, "of the wrong ones", core::atLeast(0))
+      .add("repeated_shift_m", o.repeatedShift_m, "of every third wrong one, along x and y of the map");
   return table;
 }
 
@@ -127,6 +137,7 @@ std::vector<std::pair<std::string, core::OptionTable>> optionSections(GraphSlamO
   sections.emplace_back(prefix + ".optimizer", optionTable(o.optimizer));
   sections.emplace_back(prefix + ".gnss", optionTable(o.gnss));
   sections.emplace_back(prefix + ".waterline", optionTable(o.waterline));
+  sections.emplace_back(prefix + ".false_closures", optionTable(o.falseClosures));
   return sections;
 }
 

@@ -48,6 +48,28 @@ void readSurvey(const SurveyRun& run, obs::RawlogReader& reader, SurveyMapper& m
         reader.path() + ", record " + std::to_string(fault.record) + ", byte " + std::to_string(fault.byte));
 }
 
+/// Loop closures by what became of them; injected ones only if there were any.
+void addClosureFigures(const std::vector<graph::LoopClosure>& closures, products::RunSummary& summary) {
+  double verified = 0, injected = 0, injectedAccepted = 0;
+  for (const auto& closure : closures) {
+    const bool accepted = closure.status == graph::ClosureStatus::accepted;
+    if (closure.source == graph::ClosureSource::injected) {
+      ++injected;
+      if (accepted) ++injectedAccepted;
+    } else if (accepted || closure.status == graph::ClosureStatus::pending ||
+               closure.status == graph::ClosureStatus::rejectedByOdometry ||
+               closure.status == graph::ClosureStatus::rejectedByOthers ||
+               closure.status == graph::ClosureStatus::rejectedByOptimiser) {
+      ++verified;
+    }
+  }
+  summary.figures.emplace_back("loop_closure_candidates", static_cast<double>(closures.size()) - injected);
+  summary.figures.emplace_back("loop_closures_verified", verified);
+  if (injected == 0) return;
+  summary.figures.emplace_back("false_closures_injected", injected);
+  summary.figures.emplace_back("false_closures_accepted", injectedAccepted);
+}
+
 products::RunSummary summarize(const SurveyRun& run, const SurveyConfig& config, const SurveyMapper& mapper) {
   products::RunSummary summary;
   const auto& sensors = mapper.sensors();
@@ -73,6 +95,7 @@ products::RunSummary summarize(const SurveyRun& run, const SurveyConfig& config,
   std::map<std::string, mrpt::system::CTimeLogger::TCallStats> stages;
   mapper.profile().getStats(stages);
   for (const auto& [name, stats] : stages) summary.stageTimes_s.emplace_back(name, stats.total_t);
+  addClosureFigures(mapper.graph().loopClosures(), summary);
   summary.effectiveIni = printSurveyConfig(config);
   return summary;
 }

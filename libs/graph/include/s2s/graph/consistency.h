@@ -12,8 +12,10 @@ struct ConsistencyOptions {
   /// Largest squared Mahalanobis distance (6 degrees of freedom) between a closure and the odometry, and between two
   /// closures along the odometry that joins them; 22.5 is the 99.9 % quantile.
   double chi2 = 22.5;
-  /// Closures that must agree before the first of them is believed.
-  int minSupport = 2;
+  /// Closures between the same two stretches of path that must agree before the first of them is believed. Far apart
+  /// almost any two agree, since the odometry between them leaves room; side by side hardly two wrong ones do.
+  int minSupport = 3;
+  double stretch_m = 20;  ///< largest distance along the path between both ends of two such closures
   /// Drift of the odometry per metre travelled that is assumed beyond its own covariance (random walk).
   double driftTranslation_m = 0.004;
   double driftRotation_rad = 0.0002;
@@ -26,7 +28,8 @@ double pairChi2(const OdometryChain& chain, const LoopClosure& a, const LoopClos
 
 /// Keeps the closures that agree with each other: pairwise consistency maximisation (Mangelson et al., "Pairwise
 /// Consistent Measurement Set Maximization", ICRA 2018), grown closure by closure. The largest clique is sought
-/// greedily: from the new closure with each one that comes, from many starts after a ban.
+/// greedily: from the new closure with each one that comes, from many starts after a ban. Of that clique only those are
+/// chosen that have support side by side.
 class ConsistencySet {
  public:
   explicit ConsistencySet(const ConsistencyOptions& options) : options_(options) {}
@@ -36,8 +39,10 @@ class ConsistencySet {
   /// Takes a closure out of the choice for good.
   void ban(int number) { banned_[number] = true; }
 
-  /// True for each closure of the chosen set; empty while fewer than `minSupport` agree.
+  /// True for each closure that is believed.
   const std::vector<bool>& chosen() const { return chosen_; }
+  /// True for each closure that agrees with all chosen ones but still lacks support.
+  const std::vector<bool>& waiting() const { return waiting_; }
   /// Chooses anew among all that are not banned.
   void choose();
 
@@ -49,8 +54,8 @@ class ConsistencySet {
 
   ConsistencyOptions options_;
   std::vector<LoopClosure> closures_;
-  std::vector<Row> agrees_;
-  std::vector<bool> banned_, chosen_;
+  std::vector<Row> agrees_, beside_;  ///< beside: agree and join the same stretches
+  std::vector<bool> banned_, chosen_, waiting_;
   std::vector<int> best_;  ///< the largest set found, chosen or still without support
 };
 

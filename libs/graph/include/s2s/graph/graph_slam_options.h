@@ -2,6 +2,7 @@
 
 #include "s2s/graph/cloud_registration.h"
 #include "s2s/graph/consistency.h"
+#include "s2s/graph/false_closures.h"
 #include "s2s/graph/gnss_guest.h"
 #include "s2s/graph/keyframe_policy.h"
 #include "s2s/graph/optimizer.h"
@@ -41,6 +42,7 @@ struct GraphSlamOptions {
   OptimizerOptions optimizer;
   GnssOptions gnss;
   WaterlineOptions waterline;
+  FalseClosureOptions falseClosures;
 
   double cloudVoxel_m = 0.4;    ///< thinning of the clouds that are kept
   int cloudPoints = 4000;       ///< and their largest size

@@ -9,7 +9,8 @@ namespace s2s::graph {
 enum class ClosureSource {
   proximity,   ///< the estimated poses are near each other
   descriptor,  ///< the places look alike
-  external     ///< given from outside
+  external,    ///< given from outside
+  injected     ///< wrong on purpose, see FalseClosureOptions
 };
 
 /// What became of a candidate.

@@ -18,6 +18,7 @@ core::OptionTable optionTable(ConsistencyOptions& options);
 core::OptionTable optionTable(OptimizerOptions& options);
 core::OptionTable optionTable(GnssOptions& options);
 core::OptionTable optionTable(WaterlineOptions& options);
+core::OptionTable optionTable(FalseClosureOptions& options);
 /// The keys of GraphSlamOptions itself, without those of its parts.
 core::OptionTable optionTable(GraphSlamOptions& options);
 
