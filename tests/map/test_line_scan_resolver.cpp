@@ -82,7 +82,7 @@ TEST(LineScanResolver, FlatSeabedZeroElevation_IsTooShallowByTheClosedForm) {
   EXPECT_NEAR(mean(heightErrors(map, Layer::LineHorizontal)), expected, 1e-5);  // ranges are single precision
 }
 
-TEST(LineScanResolver, FlatSeabedNothingKnown_LowerEdgeIsExact) {
+TEST(LineScanResolver, FlatSeabedNothingKnown_LowerEdgeIsExactAndMarkedAsAGuess) {
   for (const BearingModel model : {BearingModel::Azimuth, BearingModel::Cone}) {
     LeadingEdgeScene scene;
     scene.add(LeadingEdgeScene::seabed(kSeabed_m));
@@ -91,8 +91,11 @@ TEST(LineScanResolver, FlatSeabedNothingKnown_LowerEdgeIsExact) {
                        scene.ping(Isometry::Identity(), horizontalMount(), kHorizontalHalfFan, 128, model));
     // The elevation is kept in steps of 0.1 mrad: 0.5 mm at the 10 m that the outer beams reach.
     EXPECT_LT(quantileOfSize(heightErrors(map, Layer::LineHorizontal), 1.0), 1e-3);
-    EXPECT_EQ(map.elevationSources(Layer::LineHorizontal)[static_cast<std::size_t>(ElevationSource::LowestPoint)],
+    EXPECT_EQ(map.elevationSources(Layer::LineHorizontal)[static_cast<std::size_t>(ElevationSource::Ambiguous)],
               map.pointCount(Layer::LineHorizontal));
+    // The interval is the whole arc, at least that of the nearest seabed, 55 degrees down; 4 % steps.
+    const double arc_m = kDepth_m / std::sin(55 * kDegree) * LeadingEdgeScene::kAperture_rad;
+    for (const MapPoint& p : pointsOf(map, Layer::LineHorizontal)) EXPECT_GE(p.interval_m, arc_m * 0.999);
   }
 }
 
@@ -218,7 +221,7 @@ TEST(LineScanResolver, SeabedKnownAndLowerEdgeSilent_ReturnIsPutWhereItsArcMeets
   PackedReturn weak;
   // The echo of 50 degrees down: the aperture's lowest 5 degrees gave none above the threshold.
   weak.range_m = static_cast<float>(kDepth_m / std::sin(50 * kDegree));
-  weak.rangeSigmaHalf = toHalf(0.01f);
+  weak.rangeSigmaCode = encodeSigma(0.01);
   scan.returns = {weak};
   resolver.resolve(scan, Isometry::Identity());
   EXPECT_EQ(scan.returns[0].source, ElevationSource::Seabed);
@@ -238,9 +241,84 @@ TEST(LineScanResolver, EchoFarAboveTheKnownSeabed_IsNotPulledOntoIt) {
   fish.range_m = 2;
   scan.returns = {fish};
   resolver.resolve(scan, Isometry::Identity());
-  EXPECT_EQ(scan.returns[0].source, ElevationSource::LowestPoint);
+  EXPECT_EQ(scan.returns[0].source, ElevationSource::Ambiguous);
   // Anywhere on the arc of 0.70 m: seen from its lower end the root mean square is its length over the root of three.
   EXPECT_NEAR(decodeSigma(scan.returns[0].sigmaCode), 2 * LeadingEdgeScene::kAperture_rad / std::sqrt(3.0), 0.02);
+}
+
+TEST(LineScanResolver, FlatSeabedWithoutTheOtherSonar_NeighbouringArcsMakeTheSigmaHonest) {
+  Survey survey;
+  survey.withVertical = false;
+  survey.scene.add(LeadingEdgeScene::seabed(kSeabed_m));
+  CSeabedSkyMap map(withElevation(LineElevation::Resolved));
+  survey.run(map);
+  map.resolveLineScans();
+  const auto sources = map.elevationSources(Layer::LineHorizontal);
+  // All but the first and last pings' rims have neighbours.
+  EXPECT_GT(sources[static_cast<std::size_t>(ElevationSource::LowestPoint)],
+            0.9 * static_cast<double>(map.pointCount(Layer::LineHorizontal)));
+  std::vector<double> claimed;
+  for (const MapPoint& p : pointsOf(map, Layer::LineHorizontal))
+    if (p.interval_m == 0) claimed.push_back(p.sigma_m);
+  // 1 cm of range noise, 3 cm of relief, half a degree of the aperture's edge at 4 to 9 m: decimetres would be modesty.
+  EXPECT_LT(quantileOfSize(claimed, 0.5), 0.08);
+  EXPECT_LT(quantileOfSize(heightErrors(map, Layer::LineHorizontal), 0.95), 2 * quantileOfSize(claimed, 0.05));
+}
+
+/// A thin bar, 2 m long across the track and 1 m above the seabed: met first by one place of its own on each arc.
+constexpr double kBarHeight_m = kSeabed_m + 1.0;
+void addBar(LeadingEdgeScene& scene) {
+  scene.add({-Eigen::Vector3d::UnitX(), -4.0,
+             [](const Eigen::Vector3d& p) { return std::abs(p.y()) < 1 && std::abs(p.z() - kBarHeight_m) < 0.05; }});
+}
+
+TEST(LineScanResolver, SomethingAboveTheSeabed_AmbiguousIntervalsHoldIt) {
+  Survey survey;
+  survey.scene.add(LeadingEdgeScene::seabed(kSeabed_m));
+  addBar(survey.scene);
+  CSeabedSkyMap map(withElevation(LineElevation::Resolved));
+  survey.run(map);
+  map.resolveLineScans();
+  std::size_t bars = 0, held = 0;
+  for (const MapPoint& p : pointsOf(map, Layer::LineHorizontal)) {
+    if (p.interval_m == 0 || std::abs(p.p_map.z() - kSeabed_m) < 0.15) continue;  // decided, or the seabed
+    ++bars;
+    const double off_m = std::hypot(p.p_map.x() - 4.0, p.p_map.z() - kBarHeight_m);
+    if (off_m <= p.interval_m + 0.1) ++held;  // the bar is 10 cm thick
+  }
+  ASSERT_GT(bars, 50u);
+  EXPECT_GE(static_cast<double>(held), 0.95 * static_cast<double>(bars));
+}
+
+TEST(LineScanResolver, WallBehindTheSeabed_IsFoundByTheSecondReturnAndOnlyWhereAWallIsKnown) {
+  LeadingEdgeScene seabed, wall;
+  seabed.add(LeadingEdgeScene::seabed(kSeabed_m));
+  wall.add(
+      {-Eigen::Vector3d::UnitY(), -kWall_m, [](const Eigen::Vector3d& p) { return p.z() < 2 && p.z() > kSeabed_m; }});
+  CSeabedSkyMap map(withElevation(LineElevation::Resolved)), without(withElevation(LineElevation::Resolved));
+  insertLidarWall(map);
+  for (int i = 0; i < 20; ++i) {
+    const Isometry T = isometryFromXyzYpr(0.1 * i, 0, 0, 0, 0, 0);
+    LineScan scan = seabed.ping(T, horizontalMount(), kHorizontalHalfFan, 64);
+    for (LineReturn r : wall.ping(T, horizontalMount(), kHorizontalHalfFan, 64).returns) {
+      r.order = 1;
+      scan.returns.push_back(r);
+    }
+    map.insertLineScan(Layer::LineHorizontal, durationNs(0.1 * i), T, scan);
+    without.insertLineScan(Layer::LineHorizontal, durationNs(0.1 * i), T, scan);
+  }
+  const auto onWall = [](const CSeabedSkyMap& m) {
+    std::vector<double> errors;
+    m.forEachPoint(Layer::LineHorizontal, [&](const MapPoint& p) {
+      if (p.p_map.z() > kSeabed_m + 0.3) errors.push_back(p.p_map.y() - kWall_m);
+    });
+    return errors;
+  };
+  ASSERT_GT(onWall(map).size(), 50u);
+  // The LiDAR's wall is 2 cm thick by noise and not used for the distance: that is the sonar's own, without noise here.
+  EXPECT_LT(quantileOfSize(onWall(map), 0.95), 0.06);
+  EXPECT_EQ(onWall(without).size(), 0u);
+  EXPECT_EQ(without.pointCount(Layer::LineHorizontal), 20u * 64u);
 }
 
 TEST(LineScanResolver, EvidenceThatComesLater_CountsAfterResolvingAgain) {

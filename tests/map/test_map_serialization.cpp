@@ -50,6 +50,7 @@ void expectSample(const CSeabedSkyMap& map) {
     EXPECT_LT((points[i].p_map - expected[i].p_map).norm(), 1e-12) << i;  // sines may differ in the last bit
     EXPECT_EQ(points[i].intensity, expected[i].intensity);
     EXPECT_EQ(points[i].sigma_m, expected[i].sigma_m);
+    EXPECT_EQ(points[i].interval_m, expected[i].interval_m);
     EXPECT_EQ(points[i].time, expected[i].time);
     EXPECT_EQ(points[i].layer, expected[i].layer);
   }
@@ -69,6 +70,15 @@ TEST_F(MapSerialization, RoundTrip_KeepsEverything) {
 
 TEST_F(MapSerialization, ByteImageOfVersion0_IsRead) {
   const auto map = mapFrom(s2s::test::readBytes(std::string(S2S_SOURCE_DIR) + "/tests/data/map_version_0/map.bin"));
+  ASSERT_TRUE(map);
+  // Version 0 knew no ambiguous returns: all whose elevation nothing decided were of this kind.
+  EXPECT_EQ(map->elevationSources(Layer::LineHorizontal)[static_cast<std::size_t>(ElevationSource::LowestPoint)], 2u);
+  map->resolveLineScans();
+  expectSample(*map);
+}
+
+TEST_F(MapSerialization, ByteImageOfVersion1_IsRead) {
+  const auto map = mapFrom(s2s::test::readBytes(std::string(S2S_SOURCE_DIR) + "/tests/data/map_version_1/map.bin"));
   ASSERT_TRUE(map);
   expectSample(*map);
 }

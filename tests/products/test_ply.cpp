@@ -66,7 +66,7 @@ TEST(Ply, ManyPoints_HeaderCountAndFileSizeAgree) {
   const std::string bytes = readBytes(folder.file("many.ply"));
   EXPECT_THAT(bytes.substr(0, 400), HasSubstr("element vertex 123457\n"));
   // 3 doubles, 2 floats and a double a point, as the header says.
-  EXPECT_EQ(bytes.size(), bytes.find("end_header\n") + 11 + kCount * 40U);
+  EXPECT_EQ(bytes.size(), bytes.find("end_header\n") + 11 + kCount * 44U);
   int next = 0;
   forEachPlyPoint(folder.file("many.ply"), [&](const PlyPoint& p) {
     EXPECT_EQ(p.p, Eigen::Vector3d(next, 2 * next, -next));

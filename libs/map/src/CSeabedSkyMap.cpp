@@ -105,12 +105,13 @@ std::size_t CSeabedSkyMap::store(const ScanPose& pose, const LineScan& scan) {
     packed.range_m = r.range_m;
     packed.bearing_rad = r.bearing_rad;
     packed.intensityHalf = toHalf(r.intensity);
-    packed.rangeSigmaHalf = toHalf(r.sigma_m);
+    packed.rangeSigmaCode = encodeSigma(r.sigma_m);
+    packed.order = std::min(r.order, kMaxOrder);
     stored.returns.push_back(packed);
   }
   if (stored.returns.empty()) return 0;
-  counts_[static_cast<std::size_t>(pose.layer)] += stored.returns.size();
   resolve(stored);
+  countReturns(stored);
   lineScans_.push_back(std::move(stored));
   touch();
   return lineScans_.back().returns.size();
@@ -135,23 +136,31 @@ void CSeabedSkyMap::gatherEvidence(const StoredScan& scan) {
 void CSeabedSkyMap::resolve(StoredLineScan& scan) {
   if (options_.insertion.lineElevation != LineElevation::Resolved) return LineScanResolver::setZero(scan);
   const core::Isometry T_map_vehicle = mapPose(scan.pose);
-  resolver_.resolve(scan, T_map_vehicle);
+  resolver_.resolve(scan, T_map_vehicle, LineScanResolver::Pass::First);
   resolver_.addLineScan(scan, T_map_vehicle);
 }
 
 void CSeabedSkyMap::resolveLineScans() {
   resolver_.reset(options_.resolver);
   for (const StoredScan& scan : scans_) gatherEvidence(scan);
-  // The vertical sonar first: its profiles are evidence for the horizontal one wherever in time they come. Then the
-  // vertical one again, now that all swaths of the other are known.
+  // The vertical sonar first: its profiles are evidence for the horizontal one wherever in time they come. Then both
+  // again, now that all evidence is there.
   for (StoredLineScan& scan : lineScans_)
     if (scan.pose.layer == Layer::LineVertical) resolve(scan);
   for (StoredLineScan& scan : lineScans_)
     if (scan.pose.layer != Layer::LineVertical) resolve(scan);
   if (options_.insertion.lineElevation == LineElevation::Resolved)
-    for (StoredLineScan& scan : lineScans_)
-      if (scan.pose.layer == Layer::LineVertical) resolver_.resolve(scan, mapPose(scan.pose));
+    for (StoredLineScan& scan : lineScans_) resolver_.resolve(scan, mapPose(scan.pose));
+  for (const Layer layer : {Layer::LineHorizontal, Layer::LineVertical}) counts_[static_cast<std::size_t>(layer)] = 0;
+  for (const StoredScan& scan : scans_)
+    if (scan.pose.layer != Layer::Lidar && scan.pose.layer != Layer::Stereo)
+      counts_[static_cast<std::size_t>(scan.pose.layer)] += scan.points.size();
+  for (const StoredLineScan& scan : lineScans_) countReturns(scan);
   touch();
+}
+
+void CSeabedSkyMap::countReturns(const StoredLineScan& scan) {
+  for (const PackedReturn& r : scan.returns) counts_[static_cast<std::size_t>(scan.pose.layer)] += r.isHidden() ? 0 : 1;
 }
 
 std::size_t CSeabedSkyMap::pointCount(Layer layer) const { return counts_[static_cast<std::size_t>(layer)]; }
@@ -182,9 +191,12 @@ void CSeabedSkyMap::forEachPoint(Layer layer, const std::function<void(const Map
     const core::Isometry T_map_sonar = mapPose(scan.pose) * scan.T_vehicle_sonar;
     out.time = scan.pose.time;
     for (const PackedReturn& r : scan.returns) {
+      if (r.isHidden()) continue;
       out.p_map = T_map_sonar * pointOf(r, scan.bearingModel);
       out.intensity = fromHalf(r.intensityHalf);
       out.sigma_m = static_cast<float>(decodeSigma(r.sigmaCode));
+      out.isWall = r.source == ElevationSource::Wall;
+      out.interval_m = r.isAmbiguous() ? static_cast<float>(decodeSigma(r.intervalCode)) : 0;
       visit(out);
     }
   }
@@ -207,11 +219,12 @@ std::optional<mrpt::math::TBoundingBox> CSeabedSkyMap::boundingBox() const {
   return all;
 }
 
-std::array<std::size_t, 4> CSeabedSkyMap::elevationSources(Layer layer) const {
-  std::array<std::size_t, 4> counts{};
+std::array<std::size_t, kElevationSources> CSeabedSkyMap::elevationSources(Layer layer) const {
+  std::array<std::size_t, kElevationSources> counts{};
   for (const StoredLineScan& scan : lineScans_)
     if (scan.pose.layer == layer)
-      for (const PackedReturn& r : scan.returns) ++counts[static_cast<std::size_t>(r.source)];
+      for (const PackedReturn& r : scan.returns)
+        if (!r.isHidden()) ++counts[static_cast<std::size_t>(r.source)];
   return counts;
 }
 

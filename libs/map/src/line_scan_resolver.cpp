@@ -15,8 +15,11 @@ namespace {
 /// How well the heights of neighbouring places are known against each other; better than against the map.
 constexpr double kReliefSigma_m = 0.02;
 
-/// A point within this many standard deviations of the seabed's general level may be one of the seabed.
-constexpr double kLevelGate = 2.0;
+/// At this distance along an arc from where it meets a seabed, it has left it.
+constexpr double kClear_m = 0.35;
+
+/// How far from a wall's face the seabed at its foot is looked for.
+constexpr double kFootReach_m = 2.0;
 
 /// A place on an arc, decided.
 struct Decision {
@@ -24,7 +27,8 @@ struct Decision {
   double halfSpread_rad = 0;  ///< standard deviation of the elevation
   double offSurface_m = 0;    ///< standard deviation across the arc, beside that of the range
   double misfit = 0;          ///< distance from the surface in standard deviations
-  ElevationSource source = ElevationSource::LowestPoint;
+  double interval_m = 0;      ///< length of the part of the arc it may lie on, if ambiguous
+  ElevationSource source = ElevationSource::Ambiguous;
 };
 
 /// Signed distance of an arc's places from one surface, positive on the free side; nothing where it is not known.
@@ -52,7 +56,7 @@ std::optional<std::size_t> leastGap(const std::vector<Gap>& gaps) {
 ///
 /// Inside the aperture the arc is tangent to the surface, and the mean of the places that fit as well is steadier than
 /// the least one. At the aperture's edge it is the edge itself.
-Decision contact(const Arc& arc, const std::vector<Gap>& gaps, std::size_t least) {
+Decision contact(const Arc& arc, const std::vector<Gap>& gaps, std::size_t least, double relief_m) {
   const double limit = gaps[least].distance_m + gaps[least].sigma_m;
   std::size_t first = least, last = least;
   while (first > 0 && gaps[first - 1].known && gaps[first - 1].distance_m <= limit) --first;
@@ -73,14 +77,14 @@ Decision contact(const Arc& arc, const std::vector<Gap>& gaps, std::size_t least
   if (atEdge)
     decision.halfSpread_rad = (arc.elevation_rad[last] - arc.elevation_rad[first]) / std::sqrt(12.0);
   else
-    decision.offSurface_m = gaps[least].sigma_m;
+    decision.offSurface_m = relief_m;
   decision.misfit = std::abs(gaps[least].distance_m) / gaps[least].sigma_m;
   return decision;
 }
 
 /// Where the arc comes out of the surface above `least`, or below it: the crossing nearest to it.
 std::optional<Decision> crossing(const Arc& arc, const std::vector<Gap>& gaps, std::size_t least) {
-  const auto between = [&](std::size_t inside, std::size_t outside) {
+  const auto meet = [&](std::size_t inside, std::size_t outside) {
     const double a = gaps[inside].distance_m, b = gaps[outside].distance_m;
     const double slope = (b - a) / (arc.elevation_rad[outside] - arc.elevation_rad[inside]);
     Decision decision;
@@ -92,9 +96,9 @@ std::optional<Decision> crossing(const Arc& arc, const std::vector<Gap>& gaps, s
   for (std::size_t step = 1; step <= reach; ++step) {
     if (least + step < gaps.size() && gaps[least + step].known && gaps[least + step - 1].known &&
         gaps[least + step].distance_m > 0)
-      return between(least + step - 1, least + step);
+      return meet(least + step - 1, least + step);
     if (step <= least && gaps[least - step].known && gaps[least - step + 1].known && gaps[least - step].distance_m > 0)
-      return between(least - step + 1, least - step);
+      return meet(least - step + 1, least - step);
   }
   return std::nullopt;
 }
@@ -114,20 +118,20 @@ double lowestElevation(const StoredLineScan& scan, const core::Isometry& T_map_s
   return up_z > 0 ? -half : half;
 }
 
-/// Nothing known: the lowest point, which may be off by all of the aperture in the directions there are.
-Decision lowestPoint(const Arc& arc, double lowest_rad) {
-  const double below = lowest_rad - arc.elevation_rad.front();
-  const double above = arc.elevation_rad.back() - lowest_rad;
+/// Anywhere between two elevations, most likely at `place_rad`.
+Decision between(double low_rad, double high_rad, double place_rad, double range_m) {
+  const double below = place_rad - low_rad, above = high_rad - place_rad;
   Decision decision;
-  decision.elevation_rad = lowest_rad;
-  // Root mean square distance from there of a place evenly distributed over the aperture.
+  decision.elevation_rad = place_rad;
+  // Root mean square distance from there of a place evenly distributed over the interval.
   decision.halfSpread_rad = std::sqrt((std::pow(below, 3) + std::pow(above, 3)) / (3 * std::max(1e-9, below + above)));
+  decision.interval_m = range_m * (high_rad - low_rad);
   return decision;
 }
 
 double pointSigma(const PackedReturn& r, double bearingSigma_rad, const Decision& decision) {
   const double range = r.range_m, along = range * decision.halfSpread_rad, across = range * bearingSigma_rad;
-  const double radial = std::hypot(fromHalf(r.rangeSigmaHalf), decision.offSurface_m);
+  const double radial = std::hypot(decodeSigma(r.rangeSigmaCode), decision.offSurface_m);
   return std::sqrt(radial * radial + std::max(along * along, across * across));
 }
 
@@ -135,18 +139,22 @@ void apply(const Decision& decision, double bearingSigma_rad, PackedReturn& r) {
   r.elevation = static_cast<std::int16_t>(std::lround(decision.elevation_rad / kElevationStep_rad));
   r.source = decision.source;
   r.sigmaCode = encodeSigma(pointSigma(r, bearingSigma_rad, decision));
+  r.intervalCode = encodeSigma(decision.interval_m);
 }
 
 /// Decides the returns of one ping; keeps the buffers between them.
 class PingResolver {
  public:
-  PingResolver(const SurfaceEvidence& seabed, const SurfaceEvidence& walls, const ResolverOptions& options,
-               const StoredLineScan& scan, const core::Isometry& T_map_vehicle)
-      : seabed_(seabed),
-        walls_(walls),
-        options_(options),
-        scan_(scan),
-        T_map_sonar_(T_map_vehicle * scan.T_vehicle_sonar) {
+  struct Evidence {
+    const SurfaceEvidence& seabed;  ///< by others than this sonar
+    const SurfaceEvidence& own;     ///< by this sonar too
+    const SurfaceEvidence& walls;
+    const FreeSpace* free;  ///< null: not asked
+  };
+
+  PingResolver(const Evidence& evidence, const ResolverOptions& options, const StoredLineScan& scan,
+               const core::Isometry& T_map_vehicle)
+      : evidence_(evidence), options_(options), scan_(scan), T_map_sonar_(T_map_vehicle * scan.T_vehicle_sonar) {
     const auto steps = static_cast<std::size_t>(std::max(3, options.arcSteps));
     arc_.elevation_rad.resize(steps);
     arc_.p_map.resize(steps);
@@ -158,27 +166,83 @@ class PingResolver {
   }
 
   Decision decide(const PackedReturn& r) {
-    for (std::size_t i = 0; i < arc_.p_map.size(); ++i)
-      arc_.p_map[i] =
-          T_map_sonar_ * sonar::pointAt({r.range_m, r.bearing_rad, arc_.elevation_rad[i]}, scan_.bearingModel);
-    const double rangeSigma = fromHalf(r.rangeSigmaHalf);
-    const std::optional<Decision> seabed = meetSeabed(rangeSigma), wall = meetWall(rangeSigma);
+    for (std::size_t i = 0; i < arc_.p_map.size(); ++i) arc_.p_map[i] = placeOf(r, arc_.elevation_rad[i]);
+    const double rangeSigma_m = decodeSigma(r.rangeSigmaCode);
+    if (r.order > 0) {
+      const auto wall = meetWall(rangeSigma_m);
+      return wall ? *wall : between(arc_.elevation_rad.front(), arc_.elevation_rad.back(), 0, r.range_m);
+    }
+    const std::optional<Decision> seabed = meetSeabed(rangeSigma_m);
+    const double lowest_rad = lowestElevation(scan_, T_map_sonar_, r.bearing_rad);
+    if (!seabed && isOwnSeabed(r, lowest_rad, rangeSigma_m)) return lowestPoint(lowest_rad);
+    const std::optional<Decision> wall = meetWall(rangeSigma_m);
     if (seabed && wall) return seabed->misfit <= wall->misfit ? *seabed : *wall;
     if (seabed) return *seabed;
-    const Decision lowest = lowestPoint(arc_, lowestElevation(scan_, T_map_sonar_, r.bearing_rad));
-    return wall && isWallLikelier(*wall, lowest, r) ? *wall : lowest;
+    if (wall && wall->misfit <= 1 && !isFree(placeOf(r, wall->elevation_rad))) return *wall;
+    if (!evidence_.free) return between(arc_.elevation_rad.front(), arc_.elevation_rad.back(), lowest_rad, r.range_m);
+    return notFree(r, lowest_rad);
   }
 
  private:
-  /// Where the seabed in front of a wall is met first, the arc often ends just short of the wall. So a wall is believed
-  /// only if the lowest point does not lie at the seabed's general level; where that is unknown, only a close touch.
-  bool isWallLikelier(const Decision& wall, const Decision& lowest, const PackedReturn& r) const {
-    const Eigen::Vector3d p_map =
-        T_map_sonar_ * sonar::pointAt({r.range_m, r.bearing_rad, lowest.elevation_rad}, scan_.bearingModel);
-    const auto level = seabed_.levelNear(p_map.x(), p_map.y());
-    if (!level) return wall.misfit <= 1;
-    const double sigma_m = gapSigma(level->sigma_m, fromHalf(r.rangeSigmaHalf));
-    return p_map.z() - level->height_m > kLevelGate * sigma_m;
+  Eigen::Vector3d placeOf(const PackedReturn& r, double elevation_rad) const {
+    return T_map_sonar_ * sonar::pointAt({r.range_m, r.bearing_rad, elevation_rad}, scan_.bearingModel);
+  }
+
+  bool isFree(const Eigen::Vector3d& p_map) const {
+    return evidence_.free && evidence_.free->isFree(p_map, options_.freeMargin_m, options_.freePings);
+  }
+
+  bool isAtEdge(double elevation_rad) const {
+    return 0.5 * scan_.verticalAperture_rad - std::abs(elevation_rad) < options_.edgeSigma_rad;
+  }
+
+  /// Other arcs of this sonar have met the seabed there, and nowhere else along this arc. The latter matters at the
+  /// edge of the aperture: the lowest points of arcs that all met one thing higher up make a slope, too, but it is as
+  /// steep as the arcs themselves.
+  bool isOwnSeabed(const PackedReturn& r, double lowest_rad, double rangeSigma_m) const {
+    const Eigen::Vector3d p_map = placeOf(r, lowest_rad);
+    const auto own = evidence_.own.seabedAt(p_map.x(), p_map.y());
+    if (!own || std::abs(p_map.z() - own->height_m) > options_.gate * gapSigma(own->sigma_m, rangeSigma_m))
+      return false;
+    if (!isAtEdge(lowest_rad)) return true;
+    for (std::size_t i = 0; i < arc_.p_map.size(); ++i) {
+      const Eigen::Vector3d& p = arc_.p_map[i];
+      if (r.range_m * std::abs(arc_.elevation_rad[i] - lowest_rad) < kClear_m) continue;
+      const auto seabed = evidence_.own.seabedAt(p.x(), p.y());
+      if (seabed && p.z() - seabed->height_m < 2 * options_.surfaceRoughness_m) return false;
+    }
+    return true;
+  }
+
+  Decision lowestPoint(double lowest_rad) const {
+    Decision decision;
+    decision.elevation_rad = lowest_rad;
+    decision.source = ElevationSource::LowestPoint;
+    decision.offSurface_m = options_.relief_m;
+    if (isAtEdge(lowest_rad)) decision.halfSpread_rad = options_.edgeSigma_rad;
+    return decision;
+  }
+
+  /// What other pings leave of the arc: the place nearest to the lowest point.
+  Decision notFree(const PackedReturn& r, double lowest_rad) const {
+    std::size_t first = arc_.p_map.size(), last = 0;
+    for (std::size_t i = 0; i < arc_.p_map.size(); ++i) {
+      if (isFree(arc_.p_map[i])) continue;
+      first = std::min(first, i);
+      last = i;
+    }
+    if (first > last) {  // a contradiction: all is said to be free
+      first = 0;
+      last = arc_.p_map.size() - 1;
+    }
+    const double low = arc_.elevation_rad[first], high = arc_.elevation_rad[last];
+    if (r.range_m * (high - low) > options_.resolvedLength_m)
+      return between(low, high, std::clamp(lowest_rad, low, high), r.range_m);
+    // Half a step at either side is not known either.
+    const double half_rad = 0.5 * (arc_.elevation_rad[1] - arc_.elevation_rad[0]);
+    Decision decision = between(low - half_rad, high + half_rad, 0.5 * (low + high), r.range_m);
+    decision.source = ElevationSource::FreeSpace;
+    return decision;
   }
 
   double gapSigma(double surfaceSigma_m, double rangeSigma_m) const {
@@ -189,7 +253,7 @@ class PingResolver {
   std::optional<Decision> meetSeabed(double rangeSigma_m) {
     for (std::size_t i = 0; i < arc_.p_map.size(); ++i) {
       const Eigen::Vector3d& p = arc_.p_map[i];
-      const auto seabed = seabed_.seabedAt(p.x(), p.y());
+      const auto seabed = evidence_.seabed.seabedAt(p.x(), p.y());
       seabedGaps_[i].known = seabed.has_value();
       if (!seabed) continue;
       seabedGaps_[i].distance_m = p.z() - seabed->height_m;
@@ -201,7 +265,7 @@ class PingResolver {
     if (gap.distance_m > options_.gate * gap.sigma_m) return std::nullopt;
     std::optional<Decision> decision;
     if (gap.distance_m >= -options_.gate * gap.sigma_m)
-      decision = contact(arc_, seabedGaps_, *least);
+      decision = contact(arc_, seabedGaps_, *least, options_.relief_m);
     else
       decision = crossing(arc_, seabedGaps_, *least);
     if (decision) decision->source = ElevationSource::Seabed;
@@ -209,36 +273,48 @@ class PingResolver {
   }
 
   std::optional<Decision> meetWall(double rangeSigma_m) {
-    if (walls_.wallCount() == 0) return std::nullopt;
+    if (evidence_.walls.wallCount() == 0) return std::nullopt;
     for (std::size_t i = 0; i < arc_.p_map.size(); ++i) wallGaps_[i] = wallGap(arc_.p_map[i], rangeSigma_m);
     const auto least = leastGap(wallGaps_);
     if (!least) return std::nullopt;
     // An arc that goes through the wall proves that there is none at that depth, so there is no crossing here.
     if (std::abs(wallGaps_[*least].distance_m) > options_.gate * wallGaps_[*least].sigma_m) return std::nullopt;
-    Decision decision = contact(arc_, wallGaps_, *least);
+    Decision decision = contact(arc_, wallGaps_, *least, std::hypot(options_.relief_m, wallSigma_m_));
     decision.source = ElevationSource::Wall;
     return decision;
   }
 
-  Gap wallGap(const Eigen::Vector3d& p, double rangeSigma_m) const {
-    const auto wall = walls_.wallNear(p.x(), p.y());
+  Gap wallGap(const Eigen::Vector3d& p, double rangeSigma_m) {
+    const auto wall = evidence_.walls.wallNear(p.x(), p.y());
     Gap gap;
-    // Walls go on below what was seen of them, not above.
+    // Walls go on below what was seen of them, not above, and end at the seabed.
     if (!wall || p.z() > wall->top_m + options_.wallCell_m) return gap;
+    const double side = wall->normal.dot(T_map_sonar_.translation().head<2>()) < wall->offset_m ? -1 : 1;
+    if (isBelowSeabed(p, side * wall->normal)) return gap;
     gap.known = true;
-    gap.distance_m = wall->normal.dot(p.head<2>()) - wall->offset_m;
-    if (wall->normal.dot(T_map_sonar_.translation().head<2>()) < wall->offset_m) gap.distance_m = -gap.distance_m;
+    gap.distance_m = side * (wall->normal.dot(p.head<2>()) - wall->offset_m);
     gap.sigma_m = gapSigma(wall->sigma_m, rangeSigma_m);
+    wallSigma_m_ = wall->sigma_m;
     return gap;
   }
 
-  const SurfaceEvidence& seabed_;
-  const SurfaceEvidence& walls_;
+  /// Below the nearest known seabed in front of a wall's face.
+  bool isBelowSeabed(const Eigen::Vector3d& p, const Eigen::Vector2d& outward) const {
+    for (double step_m = 0; step_m <= kFootReach_m; step_m += 2 * options_.cell_m) {
+      const Eigen::Vector2d at = p.head<2>() + step_m * outward;
+      if (const auto seabed = evidence_.own.seabedAt(at.x(), at.y()))
+        return p.z() < seabed->height_m - options_.gate * seabed->sigma_m - options_.surfaceRoughness_m;
+    }
+    return false;
+  }
+
+  const Evidence evidence_;
   const ResolverOptions& options_;
   const StoredLineScan& scan_;
   const core::Isometry T_map_sonar_;
   Arc arc_;
   std::vector<Gap> seabedGaps_, wallGaps_;
+  double wallSigma_m_ = 0;  // of the wall met last
 };
 
 }  // namespace
@@ -248,6 +324,7 @@ void LineScanResolver::reset(const ResolverOptions& options) {
   walls_.reset(options);
   profiles_.reset(options);
   swaths_.reset(options);
+  free_.clear();
 }
 
 void LineScanResolver::addStereoPoint(const Eigen::Vector3d& p_map, double sigma_m) {
@@ -259,19 +336,22 @@ void LineScanResolver::addStereoPoint(const Eigen::Vector3d& p_map, double sigma
 void LineScanResolver::addLineScan(const StoredLineScan& scan, const core::Isometry& T_map_vehicle) {
   const core::Isometry T_map_sonar = T_map_vehicle * scan.T_vehicle_sonar;
   const bool isVertical = scan.pose.layer == Layer::LineVertical;
+  free_.add(scan, T_map_sonar);
   for (const PackedReturn& r : scan.returns) {
+    if (r.order > 0) continue;
     const Eigen::Vector3d p_map = T_map_sonar * pointOf(r, scan.bearingModel);
     // A surface touches the arc tangentially, so that a wrong elevation moves the point along the surface: only range
     // and bearing count for the surface's height.
-    const double sigma_m = std::hypot(fromHalf(r.rangeSigmaHalf), r.range_m * scan.bearingSigma_rad);
+    const double sigma_m = std::hypot(decodeSigma(r.rangeSigmaCode), r.range_m * scan.bearingSigma_rad);
     if (isVertical) walls_.addWallPoint(p_map);
     if (r.source != ElevationSource::Wall) (isVertical ? profiles_ : swaths_).addSeabedPoint(p_map, sigma_m);
   }
 }
 
-void LineScanResolver::resolve(StoredLineScan& scan, const core::Isometry& T_map_vehicle) const {
-  const SurfaceEvidence& seabed = scan.pose.layer == Layer::LineVertical ? swaths_ : profiles_;
-  PingResolver ping(seabed, walls_, options_, scan, T_map_vehicle);
+void LineScanResolver::resolve(StoredLineScan& scan, const core::Isometry& T_map_vehicle, Pass pass) const {
+  const bool isVertical = scan.pose.layer == Layer::LineVertical;
+  const SurfaceEvidence &others = isVertical ? swaths_ : profiles_, &own = isVertical ? profiles_ : swaths_;
+  PingResolver ping({others, own, walls_, pass == Pass::Final ? &free_ : nullptr}, options_, scan, T_map_vehicle);
   for (PackedReturn& r : scan.returns) apply(ping.decide(r), scan.bearingSigma_rad, r);
 }
 

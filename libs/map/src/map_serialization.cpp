@@ -1,5 +1,5 @@
-// The stream form of CSeabedSkyMap, version 0: generic parameters, options as INI text, keyframes, scans, line-scans.
-// What is derived (evidence, state of the thinning) is made anew from them.
+// The stream form of CSeabedSkyMap, version 1 (0 had no returns behind the first): generic parameters, options as INI
+// text, keyframes, scans, line-scans. What is derived (evidence, state of the thinning) is made anew from them.
 
 #include <mrpt/serialization/CArchive.h>
 
@@ -104,14 +104,16 @@ void writeLineScan(CArchive& out, const StoredLineScan& scan) {
   writeColumn<float>(out, scan.returns, [](const PackedReturn& r) { return r.range_m; });
   writeColumn<float>(out, scan.returns, [](const PackedReturn& r) { return r.bearing_rad; });
   writeColumn<std::uint16_t>(out, scan.returns, [](const PackedReturn& r) { return r.intensityHalf; });
-  writeColumn<std::uint16_t>(out, scan.returns, [](const PackedReturn& r) { return r.rangeSigmaHalf; });
+  writeColumn<std::uint8_t>(out, scan.returns, [](const PackedReturn& r) { return r.rangeSigmaCode; });
   writeColumn<std::int16_t>(out, scan.returns, [](const PackedReturn& r) { return r.elevation; });
   writeColumn<std::uint8_t>(out, scan.returns,
                             [](const PackedReturn& r) { return static_cast<std::uint8_t>(r.source); });
   writeColumn<std::uint8_t>(out, scan.returns, [](const PackedReturn& r) { return r.sigmaCode; });
+  writeColumn<std::uint8_t>(out, scan.returns, [](const PackedReturn& r) { return r.intervalCode; });
+  writeColumn<std::uint8_t>(out, scan.returns, [](const PackedReturn& r) { return r.order; });
 }
 
-StoredLineScan readLineScan(CArchive& in) {
+StoredLineScan readLineScan(CArchive& in, std::uint8_t version) {
   StoredLineScan scan;
   scan.pose = readScanPose(in);
   scan.T_vehicle_sonar = readPose(in);
@@ -121,14 +123,21 @@ StoredLineScan readLineScan(CArchive& in) {
   readColumn<float>(in, scan.returns, [](PackedReturn& r, float v) { r.range_m = v; });
   readColumn<float>(in, scan.returns, [](PackedReturn& r, float v) { r.bearing_rad = v; });
   readColumn<std::uint16_t>(in, scan.returns, [](PackedReturn& r, std::uint16_t v) { r.intensityHalf = v; });
-  readColumn<std::uint16_t>(in, scan.returns, [](PackedReturn& r, std::uint16_t v) { r.rangeSigmaHalf = v; });
+  if (version == 0)
+    readColumn<std::uint16_t>(in, scan.returns,
+                              [](PackedReturn& r, std::uint16_t v) { r.rangeSigmaCode = encodeSigma(fromHalf(v)); });
+  else
+    readColumn<std::uint8_t>(in, scan.returns, [](PackedReturn& r, std::uint8_t v) { r.rangeSigmaCode = v; });
   readColumn<std::int16_t>(in, scan.returns, [](PackedReturn& r, std::int16_t v) { r.elevation = v; });
   readColumn<std::uint8_t>(in, scan.returns, [](PackedReturn& r, std::uint8_t v) {
-    if (v > static_cast<std::uint8_t>(ElevationSource::LowestPoint))
+    if (v >= kElevationSources)
       throw std::runtime_error("a line-scan return has elevation source " + std::to_string(v));
     r.source = static_cast<ElevationSource>(v);
   });
   readColumn<std::uint8_t>(in, scan.returns, [](PackedReturn& r, std::uint8_t v) { r.sigmaCode = v; });
+  if (version == 0) return scan;
+  readColumn<std::uint8_t>(in, scan.returns, [](PackedReturn& r, std::uint8_t v) { r.intervalCode = v; });
+  readColumn<std::uint8_t>(in, scan.returns, [](PackedReturn& r, std::uint8_t v) { r.order = v & 15u; });
   return scan;
 }
 
@@ -148,7 +157,7 @@ Keyframe readKeyframe(CArchive& in) {
 
 }  // namespace
 
-std::uint8_t CSeabedSkyMap::serializeGetVersion() const { return 0; }
+std::uint8_t CSeabedSkyMap::serializeGetVersion() const { return 1; }
 
 void CSeabedSkyMap::serializeTo(CArchive& out) const {
   out << genericMapParams << optionsToText(options_);
@@ -162,14 +171,15 @@ void CSeabedSkyMap::serializeTo(CArchive& out) const {
 
 void CSeabedSkyMap::serializeFrom(CArchive& in, std::uint8_t version) {
   switch (version) {
-    case 0: {
+    case 0:
+    case 1: {
       internal_clear();
       std::string text;
       in >> genericMapParams >> text;
       options_ = optionsFromText(text);
       for (auto left = readCount(in, "keyframes"); left > 0; --left) keyframes_.add(readKeyframe(in));
       for (auto left = readCount(in, "scans"); left > 0; --left) scans_.push_back(readScan(in));
-      for (auto left = readCount(in, "line-scans"); left > 0; --left) lineScans_.push_back(readLineScan(in));
+      for (auto left = readCount(in, "line-scans"); left > 0; --left) lineScans_.push_back(readLineScan(in, version));
       rebuildDerived();
     } break;
     default:
@@ -190,7 +200,7 @@ void CSeabedSkyMap::rebuildDerived() {
                       options_.insertion.lidarVoxel_m, options_.insertion.lidarVoxelWindow_s);
   }
   for (const StoredLineScan& scan : lineScans_) {
-    counts_[static_cast<std::size_t>(scan.pose.layer)] += scan.returns.size();
+    countReturns(scan);
     if (options_.insertion.lineElevation == LineElevation::Resolved) resolver_.addLineScan(scan, mapPose(scan.pose));
   }
   touch();

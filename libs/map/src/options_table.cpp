@@ -41,7 +41,15 @@ core::OptionTable optionTable(ResolverOptions& o) {
       .add("gate", o.gate, "an arc meets a known surface within this many standard deviations", core::positive())
       .add("surface_roughness_m", o.surfaceRoughness_m, "standard deviation added to every known surface",
            core::atLeast(1e-3))
-      .add("arc_steps", o.arcSteps, "places tried along an arc", core::Range{3, 1001});
+      .add("arc_steps", o.arcSteps, "places tried along an arc", core::Range{3, 1001})
+      .addDegrees("edge_sigma_deg", o.edgeSigma_rad, "how sharp the edge of an aperture is: standard deviation",
+                  core::Range{0, 20})
+      .add("relief_m", o.relief_m, "unevenness of a surface within a footprint: standard deviation", core::atLeast(0))
+      .add("free_pings", o.freePings, "so many pings must agree that a place is free", core::Range{1, 1000})
+      .add("free_margin_m", o.freeMargin_m, "a place is free if it lies this far in front of a ping's return",
+           core::atLeast(0))
+      .add("resolved_length_m", o.resolvedLength_m, "a shorter part of an arc that is left counts as one place",
+           core::atLeast(0));
   return table;
 }
 

@@ -1,5 +1,6 @@
 #include "s2s/map/sonar_scans.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace s2s::map {
@@ -12,9 +13,8 @@ LineScan toMapLineScan(const sonar::LineScan& leadingEdge, const core::Isometry&
   scan.bearingSigma_rad = leadingEdge.bearingSigma_rad;
   scan.returns.reserve(leadingEdge.returns.size());
   for (const sonar::LineReturn& r : leadingEdge.returns)
-    if (r.order == 0)
-      scan.returns.push_back({static_cast<float>(r.range_m), static_cast<float>(r.bearing_rad), r.intensity,
-                              static_cast<float>(r.rangeSigma_m)});
+    scan.returns.push_back({static_cast<float>(r.range_m), static_cast<float>(r.bearing_rad), r.intensity,
+                            static_cast<float>(r.rangeSigma_m), std::min<std::uint8_t>(r.order, kMaxOrder)});
   return scan;
 }
 

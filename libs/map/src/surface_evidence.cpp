@@ -11,6 +11,8 @@ namespace {
 
 /// A slab of a column needs this many points to be believed: a stray echo below the seabed must not move it.
 constexpr float kMinSeabedPoints = 3;
+/// And this share of the points of the fullest slab: late echoes, which are put too low, go on coming as pings do.
+constexpr float kMinSeabedShare = 0.2f;
 /// A slab of a wall cell needs this many before its shape says anything; it is looked at again after as many more.
 constexpr int kMinSlabPoints = 4;
 
@@ -52,7 +54,6 @@ LineFit fitLine(const Moments& m) {
 void SurfaceEvidence::reset(const ResolverOptions& options) {
   options_ = options;
   seabed_ = SparseGrid<Column>(options.cell_m);
-  levels_ = SparseGrid<Level>(levels_.cell_m());
   walls_ = SparseGrid<WallCell>(options.wallCell_m);
   wallCount_ = 0;
 }
@@ -69,19 +70,17 @@ void SurfaceEvidence::addSeabedPoint(const Eigen::Vector3d& p_map, double sigma_
   slab.weightedZ += weight * dz;
   slab.weightedZZ += weight * dz * dz;
   updateSeabed(column);
-  Level& level = levels_.at(levels_.index(p_map.x()), levels_.index(p_map.y()));
-  level.count += 1;
-  level.z += p_map.z();
-  level.zz += p_map.z() * p_map.z();
 }
 
 /// The seabed of a column is its lowest slab with enough points, and the one above it, which holds the other half of a
 /// seabed that lies on the face between the two.
 void SurfaceEvidence::updateSeabed(Column& column) const {
   const double cell_m = options_.cell_m;
+  float fullest = 0;
+  for (const Slab& slab : column.slabs) fullest = std::max(fullest, slab.count);
   for (std::size_t i = 0; i < column.slabs.size(); ++i) {
     const Slab& low = column.slabs[i];
-    if (low.count < kMinSeabedPoints) continue;
+    if (low.count < std::max(kMinSeabedPoints, kMinSeabedShare * fullest)) continue;
     double count = low.count, weight = low.weight, z = low.weightedZ, zz = low.weightedZZ;
     if (i + 1 < column.slabs.size() && column.slabs[i + 1].bin == low.bin + 1) {
       const Slab& high = column.slabs[i + 1];
@@ -163,22 +162,6 @@ std::optional<SurfaceEvidence::Seabed> SurfaceEvidence::seabedAt(double x_m, dou
     }
   if (weight == 0) return std::nullopt;
   return Seabed{height / weight, std::sqrt(variance / weight)};
-}
-
-std::optional<SurfaceEvidence::Seabed> SurfaceEvidence::levelNear(double x_m, double y_m) const {
-  const std::int32_t ix = levels_.index(x_m), iy = levels_.index(y_m);
-  SparseGrid<Level>::Hint hint;
-  Level sum;
-  for (int dx = -1; dx <= 1; ++dx)
-    for (int dy = -1; dy <= 1; ++dy)
-      if (const Level* level = levels_.find(ix + dx, iy + dy, hint)) {
-        sum.count += level->count;
-        sum.z += level->z;
-        sum.zz += level->zz;
-      }
-  if (sum.count < kMinSeabedPoints) return std::nullopt;
-  const double mean = sum.z / sum.count;
-  return Seabed{mean, std::sqrt(std::max(0.0, sum.zz / sum.count - mean * mean))};
 }
 
 std::optional<SurfaceEvidence::Wall> SurfaceEvidence::wallNear(double x_m, double y_m) const {

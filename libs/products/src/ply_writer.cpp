@@ -19,7 +19,7 @@ std::string header(std::uint64_t count, PlyPointWriter::Columns columns) {
   text += std::string(kCountDigits - digits.size(), ' ') + "\nelement vertex " + digits + "\n";
   text +=
       "property double x\nproperty double y\nproperty double z\n"
-      "property float intensity\nproperty float sigma\nproperty double time\n";
+      "property float intensity\nproperty float sigma\nproperty double time\nproperty float interval\n";
   if (columns == PlyPointWriter::Columns::WithLayer) text += "property uchar layer\n";
   return text + "end_header\n";
 }
@@ -36,6 +36,7 @@ void PlyPointWriter::add(const map::MapPoint& point) {
   appendBytes(buffer_, point.intensity);
   appendBytes(buffer_, point.sigma_m);
   appendBytes(buffer_, static_cast<double>(point.time) / static_cast<double>(core::kNsPerSecond));
+  appendBytes(buffer_, point.interval_m);
   if (columns_ == Columns::WithLayer) appendBytes(buffer_, static_cast<std::uint8_t>(point.layer));
   ++count_;
   if (buffer_.size() + 64 > kBufferBytes) flush();

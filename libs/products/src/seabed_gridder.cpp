@@ -62,7 +62,7 @@ SeabedGridder::SeabedGridder(const SeabedGridOptions& options, double waterHeigh
     : options_(options), ceiling_m_(waterHeight_m - options.minDepth_m) {}
 
 void SeabedGridder::add(const map::MapPoint& point) {
-  if (point.layer == map::Layer::Lidar) return;
+  if (point.layer == map::Layer::Lidar || point.isWall) return;
   ++statistics_.soundings;
   const Eigen::Vector3d cellAndBin(point.p_map.x() / options_.cell_m, point.p_map.y() / options_.cell_m,
                                    point.p_map.z() * kBinsPerMetre);

@@ -91,7 +91,7 @@ class CSeabedSkyMap : public mrpt::maps::CMetricMap {
   std::optional<mrpt::math::TBoundingBox> boundingBox() const;
   std::optional<mrpt::math::TBoundingBox> boundingBox(Layer layer) const;
   /// Number of line-scan points by the way their elevation was decided.
-  std::array<std::size_t, 4> elevationSources(Layer layer) const;
+  std::array<std::size_t, kElevationSources> elevationSources(Layer layer) const;
   /// Bytes that the points take.
   std::size_t memory_bytes() const;
   /// A layer as MRPT's own cloud, in the map's frame.
@@ -138,6 +138,7 @@ class CSeabedSkyMap : public mrpt::maps::CMetricMap {
   std::size_t store(const ScanPose& pose, const LineScan& scan);
   void gatherEvidence(const StoredScan& scan);
   void resolve(StoredLineScan& scan);
+  void countReturns(const StoredLineScan& scan);
   bool insertPing(const obs::CObservationImagingSonar& ping,
                   const std::optional<const mrpt::poses::CPose3D>& robotPose);
   /// Forgets what was derived from the present content.

@@ -3,26 +3,31 @@
 #include <Eigen/Core>
 
 #include "s2s/core/transform.h"
+#include "s2s/map/free_space.h"
 #include "s2s/map/options.h"
 #include "s2s/map/scan.h"
 #include "s2s/map/surface_evidence.h"
 
 namespace s2s::map {
 
-/// Decides where on its arc a leading-edge return lies.
+/// Decides where on its arc a return lies.
 ///
-/// A return at range r and bearing b came from somewhere on the arc of all elevations within the aperture, and
-/// everything nearer was free: the surface touches the arc from outside. So the arc is compared with the surfaces known
-/// there, and the return is put where the gap between arc and surface is least, if that gap is zero within its
-/// uncertainty. An arc that cuts through a known seabed (its nearest part gave no echo above the threshold) is put
-/// where it crosses. If no known surface is met, the lowest point of the arc is taken: a level seabed is met there
-/// first. That is the lower edge of the aperture for a horizontal sonar looking down, and the imaging plane for a
-/// vertical one.
+/// A first return at range r and bearing b came from somewhere on the arc of all elevations within the aperture, and
+/// everything nearer was free: the surface touches the arc from outside. In this order:
+/// 1. Where the gap between the arc and a known surface, the seabed by the other evidence or a wall, is least, if that
+///    gap is zero within its uncertainty. An arc that cuts through a known seabed (its nearest part gave no echo above
+///    the threshold) is put where it crosses.
+/// 2. The lowest point of the arc, where a level seabed is met first, if arcs of the same sonar from other poses have
+///    met it there too. That is the lower edge of the aperture for a horizontal sonar looking down, and the imaging
+///    plane for a vertical one.
+/// 3. What is left of the arc when the places that other pings prove to be free are taken away. If it is short, it is
+///    the place; else the return is ambiguous, and its interval is the length of what is left.
 ///
-/// The standard deviation is that of range and bearing, and along the arc that of the elevations that would have done
-/// as well: all of the aperture if nothing is known. Where the arc touches a known surface inside the aperture it is
-/// tangent to it: a wrong elevation moves the point along the surface, so there it is that of the distance from the
-/// surface.
+/// For a return behind the first the space in front is not free; it is a point only if a known wall explains it.
+///
+/// The standard deviation is that of the distance from the surface: of range and bearing, and along the arc of the
+/// elevations that would have done as well. Where the arc touches the surface inside the aperture it is tangent to it:
+/// a wrong elevation then moves the point along the surface.
 class LineScanResolver {
  public:
   /// Drops all evidence.
@@ -36,8 +41,10 @@ class LineScanResolver {
   /// A resolved ping. What one sonar saw is evidence for the other, never for itself: it would only agree with itself.
   void addLineScan(const StoredLineScan& scan, const core::Isometry& T_map_vehicle);
 
-  /// Sets elevation, source and sigma of each return. Without evidence each gets the lowest point of its arc.
-  void resolve(StoredLineScan& scan, const core::Isometry& T_map_vehicle) const;
+  /// Sets elevation, source, sigma and interval of each return. Without evidence each gets the lowest point of its arc.
+  /// @param pass `First`: evidence is still to come, so that what is free, the dearest question, is not asked
+  enum class Pass { First, Final };
+  void resolve(StoredLineScan& scan, const core::Isometry& T_map_vehicle, Pass pass = Pass::Final) const;
   /// Sets all elevations to zero with the sigma of the whole aperture (the paper).
   static void setZero(StoredLineScan& scan);
 
@@ -46,6 +53,7 @@ class LineScanResolver {
   SurfaceEvidence walls_;
   SurfaceEvidence profiles_;  // seabed by stereo and the vertical sonar, for the horizontal one
   SurfaceEvidence swaths_;    // seabed by stereo and the horizontal sonar, for the vertical one
+  FreeSpace free_;
 };
 
 }  // namespace s2s::map

@@ -29,6 +29,9 @@ struct MapPoint {
   Eigen::Vector3d p_map = Eigen::Vector3d::Zero();  ///< metres
   float intensity = 0;                              ///< LiDAR: reflectivity; sonar: preprocessed echo strength 0..255
   float sigma_m = 0;                                ///< standard deviation, metres: see share/docs/map.md
+  /// Length of the arc on which the point may lie as well, as nothing decides; 0: it is decided.
+  float interval_m = 0;
+  bool isWall = false;  ///< known to lie on a wall and not on the seabed
   core::TimeNs time = 0;
   Layer layer = Layer::Lidar;
 };

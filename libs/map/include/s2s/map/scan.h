@@ -19,12 +19,15 @@ struct ScanPoint {
   float sigma_m = 0;                                    ///< standard deviation of the position (largest axis)
 };
 
-/// A leading-edge return of one beam: the surface lies somewhere on the arc of this range and bearing.
+constexpr std::uint8_t kMaxOrder = 15;
+
+/// A return of one beam: the surface lies somewhere on the arc of this range and bearing.
 struct LineReturn {
   float range_m = 0;
   float bearing_rad = 0;
   float intensity = 0;
-  float sigma_m = 0;  ///< standard deviation of the range
+  float sigma_m = 0;       ///< standard deviation of the range
+  std::uint8_t order = 0;  ///< 0: the first of its beam, all in front of it is free; 1 ... 15: a surface behind
 };
 
 /// The leading edge of one ping.
@@ -38,11 +41,14 @@ struct LineScan {
 
 /// Where on its arc a line-scan point was put, and why.
 enum class ElevationSource : std::uint8_t {
-  Zero = 0,        ///< in the imaging plane, as the paper has it
-  Seabed = 1,      ///< where the arc meets the seabed known from the vertical profile and stereo points
-  Wall = 2,        ///< where it meets a wall known from LiDAR, stereo points or the vertical profile
-  LowestPoint = 3  ///< nothing known: where a level seabed would be met first, the lowest point of the arc
+  Zero = 0,         ///< in the imaging plane, as the paper has it
+  Seabed = 1,       ///< where the arc meets the seabed known from stereo points and the other sonar
+  Wall = 2,         ///< where it meets a wall known from LiDAR, stereo points or the vertical profile
+  LowestPoint = 3,  ///< where a level seabed would be met first, and arcs from other poses have met it there too
+  FreeSpace = 4,    ///< the only short part of the arc that is not free by what other pings prove
+  Ambiguous = 5     ///< anywhere on the part of the arc that is not proven free; put at the lowest point of that part
 };
+constexpr std::size_t kElevationSources = 6;
 
 /// Sixteen bytes a point: intensity and sigma as half floats (11 significant bits, at most 65504).
 struct PackedPoint {
@@ -57,10 +63,19 @@ ScanPoint unpack(const PackedPoint& packed);
 /// Sixteen bytes a line-scan return; the elevation in steps of 0.1 mrad (1 mm at 10 m).
 struct PackedReturn {
   float range_m = 0, bearing_rad = 0;
-  std::uint16_t intensityHalf = 0, rangeSigmaHalf = 0;
+  std::uint16_t intensityHalf = 0;
   std::int16_t elevation = 0;
-  ElevationSource source = ElevationSource::Zero;
-  std::uint8_t sigmaCode = 0;  ///< standard deviation of the point, 4 % steps from 1 mm up (see `encodeSigma`)
+  std::uint8_t rangeSigmaCode = 0;  ///< of the range; all three: 4 % steps from 1 mm up (see `encodeSigma`)
+  std::uint8_t sigmaCode = 0;       ///< of the point
+  std::uint8_t intervalCode = 0;    ///< length of the part of the arc that an ambiguous return lies on
+  ElevationSource source : 4;
+  std::uint8_t order : 4;  ///< of its beam, see LineReturn
+
+  PackedReturn() : source(ElevationSource::Zero), order(0) {}
+  bool isAmbiguous() const { return source == ElevationSource::Ambiguous; }
+  /// A return behind the first that no known surface explains is most likely none; it is kept, since the surface may
+  /// become known, but it is no point of the map.
+  bool isHidden() const { return order > 0 && source != ElevationSource::Wall; }
 };
 static_assert(sizeof(PackedReturn) == 16);
 

@@ -9,8 +9,7 @@
 
 namespace s2s::map {
 
-/// The leading edge of a ping as the map takes it. Returns behind the first of a beam are left out: that the space in
-/// front of them is free, on which the decision of their elevation rests, does not hold for them.
+/// The leading edge of a ping as the map takes it, returns behind the first of a beam included.
 LineScan toMapLineScan(const sonar::LineScan& leadingEdge, const core::Isometry& T_vehicle_sonar);
 
 /// Stereo points as the map takes them, in the vehicle's frame at the time of the horizontal sonar's ping.

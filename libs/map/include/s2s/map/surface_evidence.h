@@ -35,8 +35,6 @@ class SurfaceEvidence {
 
   /// The seabed at a place, mixed bilinearly from the cells around that know it.
   std::optional<Seabed> seabedAt(double x_m, double y_m) const;
-  /// The seabed's general level within some 6 m of a place, with the spread of its heights.
-  std::optional<Seabed> levelNear(double x_m, double y_m) const;
   /// The nearest wall that passes through the cell of this place or one of its neighbours.
   std::optional<Wall> wallNear(double x_m, double y_m) const;
 
@@ -63,17 +61,11 @@ class SurfaceEvidence {
     bool isWall = false;
   };
 
-  /// Heights of all seabed points of a large cell.
-  struct Level {
-    double count = 0, z = 0, zz = 0;
-  };
-
   void updateSeabed(Column& column) const;
   void updateWall(WallCell& cell, const Eigen::Vector2d& corner_m);
 
   ResolverOptions options_;
   SparseGrid<Column> seabed_{0.25};
-  SparseGrid<Level> levels_{4.0};
   SparseGrid<WallCell> walls_{0.5};
   std::size_t wallCount_ = 0;
 };
