@@ -20,6 +20,22 @@ using testing::HasSubstr;
 
 constexpr double kWater_m = 0.25;
 
+/// A surface and its grid.
+class SeabedGridder {
+ public:
+  SeabedGridder(const SeabedGridOptions& options, double waterHeight_m)
+      : options_(options), waterHeight_m_(waterHeight_m), surface_(options) {}
+  void add(const map::MapPoint& point) { surface_.add(point); }
+  HeightGrid grid() { return gridOf(surface_, waterHeight_m_, options_, &statistics_); }
+  const SeabedGridStatistics& statistics() const { return statistics_; }
+
+ private:
+  SeabedGridOptions options_;
+  double waterHeight_m_;
+  map::SurfaceEstimator surface_;
+  SeabedGridStatistics statistics_;
+};
+
 map::MapPoint sounding(double x, double y, double z, double sigma, map::Layer layer = map::Layer::Stereo) {
   map::MapPoint p;
   p.p_map = {x, y, z};

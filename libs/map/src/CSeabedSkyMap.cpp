@@ -8,9 +8,24 @@
 
 namespace s2s::map {
 
+namespace {
+
+/// A scan that a graph update moved by less stays where it is in the surface until all is settled at the end (metres,
+/// radians times a usual range of 5 m): below what a cell is uncertain by, and most updates move most scans by less.
+constexpr double kSurfaceMotion_m = 0.02;
+
+bool isNear(const core::Isometry& a, const core::Isometry& b) {
+  constexpr double kRange_m = 5;
+  return (a.translation() - b.translation()).norm() + kRange_m * (a.linear() - b.linear()).norm() < kSurfaceMotion_m;
+}
+
+}  // namespace
+
 CSeabedSkyMap::CSeabedSkyMap() { resolver_.reset(options_.resolver); }
 
-CSeabedSkyMap::CSeabedSkyMap(const MapOptions& options) : options_(options) { resolver_.reset(options_.resolver); }
+CSeabedSkyMap::CSeabedSkyMap(const MapOptions& options) : options_(options), surface_(options.surface) {
+  resolver_.reset(options_.resolver);
+}
 
 CSeabedSkyMap::CSeabedSkyMap(const CSeabedSkyMap& other) : CSeabedSkyMap(other.options_) { *this = other; }
 
@@ -24,6 +39,7 @@ CSeabedSkyMap& CSeabedSkyMap::operator=(const CSeabedSkyMap& other) {
   counts_ = other.counts_;
   thinner_ = other.thinner_;
   resolver_ = other.resolver_;
+  rebuildSurface();
   pairer_ = other.pairer_ ? std::make_shared<PingPairer>(*other.pairer_) : nullptr;
   touch();
   return *this;
@@ -41,7 +57,10 @@ bool CSeabedSkyMap::addKeyframe(const Keyframe& keyframe) {
 
 std::size_t CSeabedSkyMap::setKeyframePoses(const std::map<std::uint64_t, core::Isometry>& T_map_vehicle) {
   touch();
-  return keyframes_.setPoses(T_map_vehicle);
+  const std::size_t found = keyframes_.setPoses(T_map_vehicle);
+  for (StoredScan& scan : scans_) enterIntoSurface(scan);
+  for (StoredLineScan& scan : lineScans_) enterIntoSurface(scan);
+  return found;
 }
 
 core::Isometry CSeabedSkyMap::poseAt(core::TimeNs time, const core::Isometry& T_odom_vehicle) const {
@@ -86,6 +105,7 @@ std::size_t CSeabedSkyMap::store(const ScanPose& pose, const std::vector<ScanPoi
   scan.points.shrink_to_fit();
   counts_[static_cast<std::size_t>(pose.layer)] += scan.points.size();
   gatherEvidence(scan);
+  enterIntoSurface(scan);
   scans_.push_back(std::move(scan));
   touch();
   return scans_.back().points.size();
@@ -112,6 +132,7 @@ std::size_t CSeabedSkyMap::store(const ScanPose& pose, const LineScan& scan) {
   if (stored.returns.empty()) return 0;
   resolve(stored);
   countReturns(stored);
+  enterIntoSurface(stored);
   lineScans_.push_back(std::move(stored));
   touch();
   return lineScans_.back().returns.size();
@@ -156,6 +177,7 @@ void CSeabedSkyMap::resolveLineScans() {
     if (scan.pose.layer != Layer::Lidar && scan.pose.layer != Layer::Stereo)
       counts_[static_cast<std::size_t>(scan.pose.layer)] += scan.points.size();
   for (const StoredLineScan& scan : lineScans_) countReturns(scan);
+  rebuildSurface();
   touch();
 }
 
@@ -171,35 +193,62 @@ std::size_t CSeabedSkyMap::pointCount() const {
   return sum;
 }
 
-void CSeabedSkyMap::forEachPoint(Layer layer, const std::function<void(const MapPoint&)>& visit) const {
+void CSeabedSkyMap::forEachPoint(Layer layer, const std::function<void(const MapPoint&)>& visitor) const {
+  for (const StoredScan& scan : scans_)
+    if (scan.pose.layer == layer) visit(scan, mapPose(scan.pose), visitor);
+  for (const StoredLineScan& scan : lineScans_)
+    if (scan.pose.layer == layer) visit(scan, mapPose(scan.pose), visitor);
+}
+
+void CSeabedSkyMap::visit(const StoredScan& scan, const core::Isometry& T_map_vehicle,
+                          const std::function<void(const MapPoint&)>& visitor) const {
   MapPoint out;
-  out.layer = layer;
-  for (const StoredScan& scan : scans_) {
-    if (scan.pose.layer != layer) continue;
-    const core::Isometry T_map_vehicle = mapPose(scan.pose);
-    out.time = scan.pose.time;
-    for (const PackedPoint& packed : scan.points) {
-      const ScanPoint point = unpack(packed);
-      out.p_map = T_map_vehicle * point.p_vehicle.cast<double>();
-      out.intensity = point.intensity;
-      out.sigma_m = point.sigma_m;
-      visit(out);
-    }
+  out.layer = scan.pose.layer;
+  out.time = scan.pose.time;
+  for (const PackedPoint& packed : scan.points) {
+    const ScanPoint point = unpack(packed);
+    out.p_map = T_map_vehicle * point.p_vehicle.cast<double>();
+    out.intensity = point.intensity;
+    out.sigma_m = point.sigma_m;
+    visitor(out);
   }
-  for (const StoredLineScan& scan : lineScans_) {
-    if (scan.pose.layer != layer) continue;
-    const core::Isometry T_map_sonar = mapPose(scan.pose) * scan.T_vehicle_sonar;
-    out.time = scan.pose.time;
-    for (const PackedReturn& r : scan.returns) {
-      if (r.isHidden()) continue;
-      out.p_map = T_map_sonar * pointOf(r, scan.bearingModel);
-      out.intensity = fromHalf(r.intensityHalf);
-      out.sigma_m = static_cast<float>(decodeSigma(r.sigmaCode));
-      out.isWall = r.source == ElevationSource::Wall;
-      out.interval_m = r.isAmbiguous() ? static_cast<float>(decodeSigma(r.intervalCode)) : 0;
-      visit(out);
-    }
+}
+
+void CSeabedSkyMap::visit(const StoredLineScan& scan, const core::Isometry& T_map_vehicle,
+                          const std::function<void(const MapPoint&)>& visitor) const {
+  const core::Isometry T_map_sonar = T_map_vehicle * scan.T_vehicle_sonar;
+  MapPoint out;
+  out.layer = scan.pose.layer;
+  out.time = scan.pose.time;
+  for (const PackedReturn& r : scan.returns) {
+    if (r.isHidden()) continue;
+    out.p_map = T_map_sonar * pointOf(r, scan.bearingModel);
+    out.intensity = fromHalf(r.intensityHalf);
+    out.sigma_m = static_cast<float>(decodeSigma(r.sigmaCode));
+    out.isWall = r.source == ElevationSource::Wall;
+    out.interval_m = r.isAmbiguous() ? static_cast<float>(decodeSigma(r.intervalCode)) : 0;
+    visitor(out);
   }
+}
+
+template <class Scan>
+void CSeabedSkyMap::enterIntoSurface(Scan& scan) {
+  if (scan.pose.layer == Layer::Lidar) return;
+  const core::Isometry T_map_vehicle = mapPose(scan.pose);
+  if (scan.T_surface_vehicle) {
+    if (isNear(*scan.T_surface_vehicle, T_map_vehicle)) return;
+    visit(scan, *scan.T_surface_vehicle, [this](const MapPoint& p) { surface_.remove(p); });
+  }
+  visit(scan, T_map_vehicle, [this](const MapPoint& p) { surface_.add(p); });
+  scan.T_surface_vehicle = T_map_vehicle;
+}
+
+void CSeabedSkyMap::rebuildSurface() {
+  surface_ = SurfaceEstimator(options_.surface);
+  for (StoredScan& scan : scans_) scan.T_surface_vehicle.reset();
+  for (StoredLineScan& scan : lineScans_) scan.T_surface_vehicle.reset();
+  for (StoredScan& scan : scans_) enterIntoSurface(scan);
+  for (StoredLineScan& scan : lineScans_) enterIntoSurface(scan);
 }
 
 std::optional<mrpt::math::TBoundingBox> CSeabedSkyMap::boundingBox(Layer layer) const {
@@ -260,6 +309,7 @@ void CSeabedSkyMap::internal_clear() {
   counts_ = {};
   thinner_.clear();
   resolver_.reset(options_.resolver);
+  surface_.clear();
   pairer_.reset();
   touch();
 }

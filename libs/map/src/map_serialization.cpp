@@ -203,6 +203,7 @@ void CSeabedSkyMap::rebuildDerived() {
     countReturns(scan);
     if (options_.insertion.lineElevation == LineElevation::Resolved) resolver_.addLineScan(scan, mapPose(scan.pose));
   }
+  rebuildSurface();
   touch();
 }
 

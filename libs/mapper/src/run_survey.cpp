@@ -129,7 +129,7 @@ products::RunSummary runSurvey(const SurveyRun& run, const SurveyConfig& config)
   const auto result = products::writeProducts(
       [&mapper](map::Layer layer, const products::PointVisitor& visit) { mapper.map().forEachPoint(layer, visit); },
       {mapper.trajectory(), mapper.odometryTrajectory(), mapper.keyframeTrajectory()}, summary, config.products,
-      run.output, [&](const std::string&) { progress.update(++files); });
+      run.output, [&](const std::string&) { progress.update(++files); }, &mapper.map().surface());
   return result.summary;
 }
 

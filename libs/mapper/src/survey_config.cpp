@@ -44,6 +44,7 @@ SurveyConfig loadSurveyConfig(const std::string& path, const std::vector<std::st
   for (auto& [name, table] : sectionsOf(config)) table.load(ini, name);
   sonar::loadSonars(ini, config.sonar);
   ini.rejectUnread();
+  config.map.surface = config.products.grid;  // the seabed's cells are set where the product is
   return config;
 }
 

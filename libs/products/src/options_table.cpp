@@ -19,6 +19,8 @@ void addGrid(core::OptionTable& table, SeabedGridOptions& grid) {
       .add("grid_max_doubtful_step_m", grid.maxDoubtfulStep_m, "the same for a cell that holds more than seabed",
            core::positive())
       .add("grid_sigma_floor_m", grid.sigmaFloor_m, "smallest standard deviation believed of a sounding", {0.001, 10})
+      .add("grid_max_tiles", grid.maxTilesInMemory,
+           "tiles of 32 x 32 cells in memory; those not used lately go to a temporary file", core::atLeast(1))
       .add("grid_max_cells", grid.maxCells, "a larger grid is refused", core::atLeast(1));
 }
 

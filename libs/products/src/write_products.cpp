@@ -50,13 +50,16 @@ HeightDatum heightDatum(const RunSummary& summary, const core::Trajectory& path)
 class Writing {
  public:
   Writing(const PointSource& points, const Trajectories& trajectories, RunSummary summary,
-          const ProductsOptions& options, std::string dir, const std::function<void(const std::string&)>& onFile)
+          const ProductsOptions& options, std::string dir, const std::function<void(const std::string&)>& onFile,
+          const map::SurfaceEstimator* surface)
       : points_(points),
         trajectories_(trajectories),
         options_(options),
         dir_(std::move(dir)),
         onFile_(onFile),
+        surface_(surface),
         crossSection_(SurveyFrame(trajectories.optimised, {}), options.pictures.sectionThickness_m) {
+    if (!surface_ && wantsGrid()) ownSurface_ = std::make_unique<map::SurfaceEstimator>(options.grid);
     result_.summary = std::move(summary);
     datum_ = heightDatum(result_.summary, trajectories_.optimised);
   }
@@ -108,7 +111,7 @@ class Writing {
         if (!statistics_.add(point)) return;
         if (ply) ply->add(point);
         if (all) all->add(point);
-        if (wantsGrid()) gridder().add(point);
+        if (ownSurface_) ownSurface_->add(point);
         if (options_.report) crossSection_.add(point);
       });
       if (ply) {
@@ -127,25 +130,18 @@ class Writing {
 
   bool wantsGrid() const { return options_.geoTiff || options_.bag || options_.report; }
 
-  SeabedGridder& gridder() {
-    // Without a water surface no sounding can be too near to it.
-    if (!gridder_)
-      gridder_ = std::make_unique<SeabedGridder>(
-          options_.grid, result_.summary.waterHeight_m.value_or(std::numeric_limits<double>::infinity()));
-    return *gridder_;
-  }
-
   void writeGrid() {
     if (!wantsGrid()) return;
     try {
-      grid_ = gridder().grid();
+      // Without a water surface no sounding can be too near to it.
+      const double water_m = result_.summary.waterHeight_m.value_or(std::numeric_limits<double>::infinity());
+      grid_ = gridOf(surface_ ? *surface_ : *ownSurface_, water_m, options_.grid, &result_.seabed);
     } catch (const core::OutputError& error) {  // too large: no reason to lose the rest of the map
-      gridder_.reset();
+      result_.seabed = {};
       warn("no seabed grid: " + error.fault() + "; " + error.remedy());
       return;
     }
-    result_.seabed = gridder().statistics();
-    gridder_.reset();
+    ownSurface_.reset();
     if (grid_.columns == 0) {
       warn("no seabed grid: too few soundings in every cell");
       return;
@@ -266,7 +262,8 @@ class Writing {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   HeightDatum datum_;
   CloudStatistics statistics_;
-  std::unique_ptr<SeabedGridder> gridder_;
+  const map::SurfaceEstimator* surface_;
+  std::unique_ptr<map::SurfaceEstimator> ownSurface_;  ///< if none was given
   CrossSectionFinder crossSection_;
   HeightGrid grid_;
   std::unique_ptr<MapPictures> pictures_;
@@ -277,8 +274,9 @@ class Writing {
 
 ProductsResult writeProducts(const PointSource& points, const Trajectories& trajectories, RunSummary summary,
                              const ProductsOptions& options, const std::string& dir,
-                             const std::function<void(const std::string&)>& onFile) {
-  return Writing(points, trajectories, std::move(summary), options, dir, onFile).run();
+                             const std::function<void(const std::string&)>& onFile,
+                             const map::SurfaceEstimator* surface) {
+  return Writing(points, trajectories, std::move(summary), options, dir, onFile, surface).run();
 }
 
 ProductsResult writeProducts(const map::CSeabedSkyMap& map, const Trajectories& trajectories, RunSummary summary,

@@ -90,6 +90,9 @@ class CSeabedSkyMap : public mrpt::maps::CMetricMap {
   /// Nothing if the map is empty.
   std::optional<mrpt::math::TBoundingBox> boundingBox() const;
   std::optional<mrpt::math::TBoundingBox> boundingBox(Layer layer) const;
+  /// The seabed as estimated from all sonar points at their present places. It grows with every insertion; scans that a
+  /// graph update has moved are taken out and put in again.
+  const SurfaceEstimator& surface() const { return surface_; }
   /// Number of line-scan points by the way their elevation was decided.
   std::array<std::size_t, kElevationSources> elevationSources(Layer layer) const;
   /// Bytes that the points take.
@@ -139,6 +142,14 @@ class CSeabedSkyMap : public mrpt::maps::CMetricMap {
   void gatherEvidence(const StoredScan& scan);
   void resolve(StoredLineScan& scan);
   void countReturns(const StoredLineScan& scan);
+  void visit(const StoredScan& scan, const core::Isometry& T_map_vehicle,
+             const std::function<void(const MapPoint&)>& visit) const;
+  void visit(const StoredLineScan& scan, const core::Isometry& T_map_vehicle,
+             const std::function<void(const MapPoint&)>& visit) const;
+  /// Enters a scan of a sonar into the surface where it is now, after taking it out where it was.
+  template <class Scan>
+  void enterIntoSurface(Scan& scan);
+  void rebuildSurface();
   bool insertPing(const obs::CObservationImagingSonar& ping,
                   const std::optional<const mrpt::poses::CPose3D>& robotPose);
   /// Forgets what was derived from the present content.
@@ -153,6 +164,7 @@ class CSeabedSkyMap : public mrpt::maps::CMetricMap {
   std::array<std::size_t, kLayers.size()> counts_{};
   VoxelThinner thinner_;
   LineScanResolver resolver_;
+  SurfaceEstimator surface_;
   std::shared_ptr<NearestCache> nearest_ = makeNearestCache();
   std::shared_ptr<PingPairer> pairer_;  // made with the first ping that MRPT inserts
 

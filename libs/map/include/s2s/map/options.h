@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "s2s/map/keyframes.h"
+#include "s2s/map/surface_estimator.h"
 
 namespace s2s::map {
 
@@ -68,6 +69,7 @@ struct MapOptions {
   ResolverOptions resolver;
   LikelihoodOptions likelihood;
   ViewOptions view;
+  SurfaceOptions surface;  ///< not streamed with the map: whoever reads it chooses
 };
 
 }  // namespace s2s::map

@@ -101,11 +101,13 @@ struct ScanPose {
 
 struct StoredScan {
   ScanPose pose;
+  std::optional<core::Isometry> T_surface_vehicle;  ///< where it entered the map's surface; derived, not streamed
   std::vector<PackedPoint> points;
 };
 
 struct StoredLineScan {
   ScanPose pose;
+  std::optional<core::Isometry> T_surface_vehicle;  ///< as above
   core::Isometry T_vehicle_sonar = core::Isometry::Identity();
   float verticalAperture_rad = 0, bearingSigma_rad = 0;
   obs::BearingModel bearingModel = obs::BearingModel::Azimuth;

@@ -12,8 +12,8 @@ namespace s2s::products {
 /// Writes map points as binary little-endian PLY, one at a time: a few megabytes of memory for any number of points.
 ///
 /// Vertex properties: `double x y z` (metres, map frame, z up), `float intensity`, `float sigma` (metres),
-/// `double time` (Unix seconds), `float interval` (metres of arc on which an ambiguous line-scan point may lie as well, 0
-/// if it is decided) and, when asked for, `uchar layer` (map::Layer).
+/// `double time` (Unix seconds), `float interval` (metres of arc on which an ambiguous line-scan point may lie as well,
+/// 0 if it is decided) and, when asked for, `uchar layer` (map::Layer).
 class PlyPointWriter {
  public:
   enum class Columns { Plain, WithLayer };
