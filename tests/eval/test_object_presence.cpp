@@ -61,3 +61,26 @@ TEST(ObjectPresence, WorldWithoutSeabed_HasNoHeights) {
   EXPECT_TRUE(std::isnan(presence[0].trueHeight_m));
   EXPECT_TRUE(std::isnan(presence[0].mappedHeight_m));
 }
+
+TEST(ObjectPresence, HalfOfTheVisibleSurfaceWithPoints_IsHalfCovered) {
+  const TruthFolder truth = world();
+  const MeshQuery mesh(truth.world);
+  core::Trajectory path;
+  path.append(0, core::isometryFromXyzYpr(-3, -4, 0, 0, 0, 0));
+  path.append(1, core::isometryFromXyzYpr(3, 4, 0, 0, 0, 0));
+  ObjectFinder finder(truth, 0.1);
+  finder.measureCover(mesh, path, {});
+  finder.keepPoints(0.3);
+  // The upper face for y < 0 only, every 5 cm; the sides stay bare.
+  for (double x = -0.975; x < 1; x += 0.05)
+    for (double y = -0.475; y < 0; y += 0.05) finder.add(map::Layer::Stereo, {x, y, -3.5});
+  const auto presence = finder.presence();
+  // Upper face 2 m2; of the sides, 2 x 2 x 0.7 and 2 x 1 x 0.7 m2 (0.5 above the bed where there is one), all that is
+  // not below the bed is seen from the two places on a diagonal.
+  EXPECT_GT(presence[0].seenArea_m2, 2 + 2 * 2 * 0.5);
+  EXPECT_LT(presence[0].seenArea_m2, 2 + 2 * 2 * 0.7 + 2 * 1 * 0.7 + 0.3);
+  // Half the upper face, 0.1 m of its other half, and the sides' upper rim of 0.1 m around that half.
+  const double covered_m2 = 1 + 0.2 + 0.1 * (2 + 0.6 + 0.6);
+  EXPECT_NEAR(presence[0].covered * presence[0].seenArea_m2, covered_m2, 0.15);
+  EXPECT_EQ(finder.pointsOf(0).size(), 400u);
+}

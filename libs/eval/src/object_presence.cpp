@@ -10,6 +10,9 @@ namespace s2s::eval {
 
 namespace {
 
+/// One sample of an object's surface for each square of this side.
+constexpr double kCoverSpacing_m = 0.05;
+
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// The mesh without the vertices that no triangle uses, so that its extent is that of its triangles.
@@ -55,13 +58,25 @@ double ObjectFinder::heightAboveSeabed(const Eigen::Vector3d& p_world) const {
   return height_m ? p_world.z() - *height_m : kNaN;
 }
 
+void ObjectFinder::measureCover(const MeshQuery& world, const core::Trajectory& path_world,
+                                SurfaceRecallOptions options) {
+  options.spacing_m = kCoverSpacing_m;
+  for (auto& candidate : candidates_)
+    candidate.seen =
+        std::make_unique<VisibleSurface>(world, candidate.surface->mesh(), path_world, options.sonar, options);
+}
+
 void ObjectFinder::add(map::Layer layer, const Eigen::Vector3d& p_world) {
   const auto index = static_cast<std::size_t>(layer);
   for (auto& candidate : candidates_) {
+    if (layer != map::Layer::Lidar && margin_m_ > 0 && (p_world.array() > candidate.low.array() - margin_m_).all() &&
+        (p_world.array() < candidate.high.array() + margin_m_).all())
+      candidate.kept.push_back({layer, p_world});
     if ((p_world.array() < candidate.low.array()).any() || (p_world.array() > candidate.high.array()).any()) continue;
     const auto nearest = candidate.surface->nearest(p_world, reach_m_);
     if (!nearest) continue;
     ++candidate.found.near[index];
+    if (candidate.seen && layer != map::Layer::Lidar) candidate.seen->add(p_world);
     if (seabed_ && seabed_->nearest(p_world, nearest->distance_m)) continue;
     ++candidate.found.own[index];
     const double height_m = heightAboveSeabed(p_world);
@@ -76,6 +91,11 @@ std::vector<ObjectPresence> ObjectFinder::presence() const {
     std::vector<double> heights_m = candidate.heights_m;
     std::sort(heights_m.begin(), heights_m.end());
     presence.mappedHeight_m = percentile(heights_m, 0.95);
+    if (candidate.seen) {
+      const SurfaceRecall recall = candidate.seen->recall();
+      presence.seenArea_m2 = recall.area_m2;
+      presence.covered = recall.within10cm;
+    }
     result.push_back(std::move(presence));
   }
   return result;

@@ -90,6 +90,8 @@ Json toJson(const ObjectPresence& object) {
   return {{"name", object.name},
           {"points_near", near},
           {"points_nearer_than_seabed", own},
+          {"seen_area_m2", object.seenArea_m2},
+          {"covered", object.seenArea_m2 > 0 ? Json(object.covered) : Json(nullptr)},
           {"true_height_m", number(object.trueHeight_m)},
           {"mapped_height_m", number(object.mappedHeight_m)}};
 }

@@ -90,14 +90,16 @@ std::string seabedText(const SeabedError& s) {
 }
 
 std::string objectsText(const std::vector<ObjectPresence>& objects) {
-  TextTable table({"object", "lidar", "stereo", "line_horizontal", "line_vertical", "nearer than seabed",
-                   "true height [m]", "mapped height [m]"});
+  TextTable table({"object", "lidar", "stereo", "line_horizontal", "line_vertical", "nearer than seabed", "seen [m2]",
+                   "covered [%]", "true height [m]", "mapped height [m]"});
   for (const auto& object : objects) {
     std::vector<std::string> row = {object.name};
     std::uint64_t own = 0;
     for (const auto count : object.near) row.push_back(std::to_string(count));
     for (const auto count : object.own) own += count;
     row.push_back(std::to_string(own));
+    row.push_back(fixed(object.seenArea_m2, 2));
+    row.push_back(object.seenArea_m2 > 0 ? fixed(100 * object.covered, 1) : "-");
     row.push_back(fixed(object.trueHeight_m, 2));
     row.push_back(fixed(object.mappedHeight_m, 2));
     table.addRow(std::move(row));

@@ -60,6 +60,11 @@ void sampleSurface(const products::PlyMesh& mesh, const Eigen::AlignedBox3d& box
 
 VisibleSurface::VisibleSurface(const MeshQuery& world, const core::Trajectory& path_world,
                                const VisibilityOptions& visibility, const SurfaceRecallOptions& options)
+    : VisibleSurface(world, world.mesh(), path_world, visibility, options) {}
+
+VisibleSurface::VisibleSurface(const MeshQuery& world, const products::PlyMesh& part,
+                               const core::Trajectory& path_world, const VisibilityOptions& visibility,
+                               const SurfaceRecallOptions& options)
     : spacing_m_(options.spacing_m) {
   const auto eyes = eyesAlong(path_world, visibility.eye_vehicle_m, options.pathStep_m);
   if (eyes.empty()) return;
@@ -69,7 +74,7 @@ VisibleSurface::VisibleSurface(const MeshQuery& world, const core::Trajectory& p
   box = Eigen::AlignedBox3d(Eigen::Vector3d(box.min() - range), Eigen::Vector3d(box.max() + range));
   box.min().z() = std::max(box.min().z(), visibility.minHeight_m);
   box.max().z() = std::min(box.max().z(), visibility.maxHeight_m);
-  sampleSurface(world.mesh(), box, spacing_m_ * spacing_m_, [&](const Eigen::Vector3d& p) {
+  sampleSurface(part, box, spacing_m_ * spacing_m_, [&](const Eigen::Vector3d& p) {
     if (!visible(world, eyes, p, visibility)) return;
     const Eigen::Vector3i cell = (p / kCell_m).array().floor().matrix().cast<int>();
     cells_[keyOf(cell)].push_back(static_cast<std::uint32_t>(samples_.size()));

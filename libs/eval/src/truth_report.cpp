@@ -3,6 +3,7 @@
 #include "s2s/core/error.h"
 #include "s2s/core/time.h"
 #include "s2s/eval/map_folder.h"
+#include "s2s/eval/object_pictures.h"
 #include "s2s/eval/truth_folder.h"
 #include "s2s/products/ply_reader.h"
 
@@ -51,6 +52,9 @@ core::Trajectory truePathOf(const core::Trajectory& truth, const core::Trajector
   for (const auto& pair : pairByTime(truth, estimate)) poses.push_back({pair.time, pair.T_ref_body});
   return core::Trajectory(std::move(poses));
 }
+
+/// How much of an object's surroundings its picture shows.
+constexpr double kPictureMargin_m = 0.4;
 
 /// Everything that each point of the map is shown to.
 struct PointConsumers {
@@ -108,6 +112,8 @@ void measureLayers(const MapFolder& map, const TruthFolder& truth, const core::T
   PointConsumers consumers{ObjectFinder(truth, options.objectReach_m),
                            VisibleSurface(world, path, options.recall.lidar, options.recall),
                            VisibleSurface(world, path, options.recall.sonar, options.recall)};
+  consumers.finder.measureCover(world, path, options.recall);
+  if (!options.objectPictures.empty()) consumers.finder.keepPoints(kPictureMargin_m);
   for (const map::Layer layer : map::kLayers) {
     if (const auto file = map.layerFile(layer))
       measureLayer(*file, layer, world, consumers, options, report);
@@ -115,6 +121,7 @@ void measureLayers(const MapFolder& map, const TruthFolder& truth, const core::T
       report.notes.push_back(std::string("layer ") + map::layerName(layer) + ": no such file in the map folder");
   }
   report.objects = consumers.finder.presence();
+  if (!options.objectPictures.empty()) writeObjectPictures(consumers.finder, options.objectPictures);
   if (auto score = scoreMedium("above_water", true, report, consumers.aboveWater))
     report.media.push_back(std::move(*score));
   if (auto score = scoreMedium("under_water", false, report, consumers.underWater))

@@ -39,6 +39,9 @@ class VisibleSurface {
   /// the range, inside the elevation limits, joins them with the sensor at some place of the path.
   VisibleSurface(const MeshQuery& world, const core::Trajectory& path_world, const VisibilityOptions& visibility,
                  const SurfaceRecallOptions& options);
+  /// The same for a part of the world, such as one object; all of the world hides it.
+  VisibleSurface(const MeshQuery& world, const products::PlyMesh& part, const core::Trajectory& path_world,
+                 const VisibilityOptions& visibility, const SurfaceRecallOptions& options);
 
   /// A point of the map, in the world frame.
   void add(const Eigen::Vector3d& p_world);

@@ -19,6 +19,7 @@ struct TruthOptions {
   TrajectoryAlignment mapAlignment = TrajectoryAlignment::Poses;
   std::size_t maxPointsPerLayer = 1'000'000;  ///< larger layers are sampled
   double objectReach_m = 0.1;
+  std::string objectPictures;  ///< folder for a picture of each object that was seen; empty: none
   SeabedErrorOptions seabed;
   SurfaceRecallOptions recall;
 };
