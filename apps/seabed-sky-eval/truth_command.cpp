@@ -43,6 +43,10 @@ class TruthCommand : public Command {
         .add_option("--object-reach", options_.objectReach_m, "Points this near to an object belong to it [m]")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
+    parser()
+        .add_option("--object-pictures", options_.objectPictures,
+                    "Write a picture of each object with the map's points into this folder")
+        ->type_name("DIR");
   }
 
   void run() override {
