@@ -19,6 +19,9 @@ Replay replay(const Record& record) {
     Scan scan = scanAt(record.world, record.path, t, record.lidar, random);
     if (!record.hasPointTimes) scan.offset_s.clear();
     if (!record.tamperScan || record.tamperScan(scan)) odometry.addScan(std::move(scan));
+    // A record in the middle of each sweep, as it comes between its first point and its end.
+    if (record.seabed)
+      odometry.addAcoustic(acousticAt(record.seabed, record.path, t + 0.5 * record.lidar.period_s, 0.04, random));
     drain();
   }
   odometry.finish();

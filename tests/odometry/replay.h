@@ -17,6 +17,7 @@ struct Record {
   double duration_s = 12;
   bool hasImu = true;
   bool hasPointTimes = true;
+  Seabed seabed;  // none: no sonars
   OdometryOptions options;
   std::uint64_t seed = 1;
   /// May change a scan or sample before it is given; false: leave it out.

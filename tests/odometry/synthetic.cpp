@@ -81,6 +81,21 @@ Path cruise(double speed_mps, double y, double z) {
   };
 }
 
+AcousticScan acousticAt(const Seabed& seabed, const Path& path, double t, double sigma_m, Random& random) {
+  constexpr int kPoints = 600;
+  const core::Isometry T_world_vehicle = path(t), T_vehicle_world = T_world_vehicle.inverse();
+  AcousticScan scan;
+  scan.time = timeOf(t);
+  for (int i = 0; i < kPoints; ++i) {
+    const Eigen::Vector3d ahead(2 + 3 * random.uniform(), 3 * (2 * random.uniform() - 1), 0);
+    Eigen::Vector3d p = T_world_vehicle * ahead;
+    p.z() = seabed(p.x(), p.y());
+    scan.points_vehicle.emplace_back((T_vehicle_world * p + random.gaussian3(sigma_m)).cast<float>());
+    scan.sigma_m.push_back(static_cast<float>(sigma_m));
+  }
+  return scan;
+}
+
 core::TimeNs timeOf(double t) { return 1'700'000'000 * core::kNsPerSecond + core::durationNs(t); }
 
 ImuSample imuAt(const Path& path, double t, const core::Isometry& T_vehicle_imu, const ImuNoise& noise,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "s2s/obs/CObservationLidarSweep.h"
+#include "s2s/odometry/acoustic_scan.h"
 #include "s2s/odometry/imu_sample.h"
 #include "s2s/odometry/scan.h"
 
@@ -69,6 +70,13 @@ struct Lidar {
 obs::CObservationLidarSweep sweepAt(const World& world, const Path& path, double t, const Lidar& lidar, Random& random);
 /// The same as a scan with all returns.
 Scan scanAt(const World& world, const Path& path, double t, const Lidar& lidar, Random& random);
+
+/// Height of a seabed [m] as a function of x and y.
+using Seabed = std::function<double(double, double)>;
+
+/// What two sonars see of a seabed ahead of the vessel: points of 2 to 5 m ahead and 3 m to both sides, with isotropic
+/// noise.
+AcousticScan acousticAt(const Seabed& seabed, const Path& path, double t, double sigma_m, Random& random);
 
 /// Time zero of the synthetic records.
 core::TimeNs timeOf(double t);

@@ -115,6 +115,91 @@ TEST(Odometry, Corridor_IsFlaggedAndItsUncertaintyGrowsAlongIt) {
   EXPECT_LT(std::abs(error.y()), 0.05);
 }
 
+/// A vessel along a corridor, whose way along no LiDAR tells; under it a seabed that the sonars see.
+Record overSeabed(Seabed seabed) {
+  Record record;
+  record.world = corridor();
+  // From rest: a speed that neither LiDAR nor seabed has told before the first map is made is not found later.
+  record.path = [](double t) {
+    const double under_way_s = std::max(0.0, t - 3);
+    core::Isometry T = cruise(0.0, 0, 0)(t);
+    T.translation().x() = under_way_s < 4 ? 0.125 * under_way_s * under_way_s : 2 + (under_way_s - 4);
+    return T;
+  };
+  record.duration_s = 15;
+  record.options.water.velocityPrior = false;
+  record.seabed = std::move(seabed);
+  return record;
+}
+
+double lastErrorAlong(const Replay& run, const Record& record) {
+  const double t = core::secondsBetween(timeOf(0), run.results.back().time);
+  return (record.path(t).linear() * errorAt(run, record, run.results.size() - 1).translation()).x();
+}
+
+TEST(Odometry, CorridorOverRipples_SonarHoldsTheWayAlong) {
+  // Ripples of 10 cm by 1.1 m: slopes of up to 0.29, seen by 600 points of 4 cm ten times a second.
+  Record record = overSeabed([](double x, double y) { return -3 + 0.05 * std::sin(2 * M_PI * (x + 0.3 * y) / 1.1); });
+  const Replay with = replay(record);
+  // Locked onto the next ripple it would be off by 1.1 m.
+  EXPECT_LT(std::abs(lastErrorAlong(with, record)), 0.4);
+  std::size_t matched = 0;
+  for (const auto& result : with.results) matched += result.seabedMatchCount > 0;
+  EXPECT_GT(matched, with.results.size() / 2);
+  const Eigen::Matrix3d R = record.path(record.duration_s).linear();
+  const auto along = [&](const Replay& run) {
+    return std::sqrt((R * run.results.back().covariance_pose.topLeftCorner<3, 3>() * R.transpose())(0, 0));
+  };
+  record.options.seabed.enabled = false;
+  const Replay without = replay(record);
+  EXPECT_LT(along(with), 0.2 * along(without));
+}
+
+TEST(Odometry, CorridorOverFlatSeabed_InventsNoKnowledge) {
+  const Record record = overSeabed([](double, double) { return -3.0; });
+  const Replay run = replay(record);
+  const double t = core::secondsBetween(timeOf(0), run.results.back().time);
+  const Eigen::Matrix3d R = record.path(t).linear();
+  const double along = std::sqrt((R * run.results.back().covariance_pose.topLeftCorner<3, 3>() * R.transpose())(0, 0));
+  // A flat seabed says nothing about the way along: what is known of it must cover the error.
+  EXPECT_LT(std::abs(lastErrorAlong(run, record)), 3 * along);
+}
+
+TEST(Odometry, AcousticScansOutOfReach_AreLeftOut) {
+  Record record;
+  record.duration_s = 3;
+  const Replay plain = replay(record);
+  // All at one moment long before the first scan: no pose is known for them.
+  LidarInertialOdometry odometry(record.options);
+  Random random(record.seed);
+  odometry.addAcoustic(acousticAt([](double, double) { return -3.0; }, record.path, -100, 0.04, random));
+  EXPECT_TRUE(odometry.expectedMotion(timeOf(0), timeOf(1)).isApprox(core::Isometry::Identity()));
+  for (int i = 0; i < 30; ++i) odometry.addScan(scanAt(record.world, record.path, 0.1 * i, record.lidar, random));
+  odometry.finish();
+  std::size_t count = 0;
+  while (const auto result = odometry.next()) {
+    EXPECT_EQ(result->seabedMatchCount, 0U);
+    ++count;
+  }
+  EXPECT_EQ(count, plain.results.size());
+}
+
+TEST(Odometry, ExpectedMotion_IsThatOfThePath) {
+  const Record record;
+  Random random(1);
+  LidarInertialOdometry odometry(record.options);
+  for (int i = 0; i < 300; ++i) odometry.addImu(imuAt(record.path, 0.01 * i, record.T_vehicle_imu, {}, random));
+  for (int i = 0; i < 29; ++i) odometry.addScan(scanAt(record.world, record.path, 0.1 * i, record.lidar, random));
+  odometry.finish();
+  while (odometry.next()) {
+  }
+  // From 30 ms before the last pose to 30 ms after it, at up to 1 m/s^2 and 0.3 rad/s^2 beside constant motion.
+  const core::Isometry truth = record.path(2.87).inverse() * record.path(2.93);
+  const core::Isometry error = truth.inverse() * odometry.expectedMotion(timeOf(2.87), timeOf(2.93));
+  EXPECT_LT(error.translation().norm(), 0.006);
+  EXPECT_LT(core::logSo3(error.linear()).norm(), 0.002);
+}
+
 TEST(Odometry, Canal_HeaveKnowledgeHoldsTheHeight) {
   // Only vertical walls in sight: no surface tells the height.
   Record record;

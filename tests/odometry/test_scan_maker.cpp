@@ -49,6 +49,17 @@ TEST(ScanMaker, AutomaticStride_KeepsTheCountAndVisitsAllPixelsInTime) {
   EXPECT_EQ(offsets.size(), 512U);  // every column had its turn
 }
 
+TEST(ScanMaker, FewReturns_AllAreLookedAt) {
+  auto sweep = someSweep();
+  // Open water: one return in twenty beams.
+  auto& range = sweep.echoes.front().range;
+  for (std::size_t i = 0; i < range.size(); ++i)
+    if (i % 20 != 0) range[i] = 0;
+  ScanOptions options;
+  options.maxPoints = 4096;
+  EXPECT_EQ(ScanMaker(options).fromSweep(sweep).points_sensor.size(), sweep.returnCount());
+}
+
 TEST(ScanMaker, InvalidColumnsAndRangeLimits_AreLeftOut) {
   auto sweep = someSweep();
   sweep.columnValid.assign(sweep.columnCount, 1);

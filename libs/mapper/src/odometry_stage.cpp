@@ -4,6 +4,8 @@
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationPointCloud.h>
 
+#include <utility>
+
 #include "s2s/core/error.h"
 
 namespace s2s::mapper {
@@ -34,6 +36,8 @@ OdometryStage::OdometryStage(const Options& options, FaultLog& faults, Output ou
       output_(std::move(output)),
       scanMaker_(options.odometry.scan),
       odometry_(options.odometry),
+      pairer_(options.sonar, options.mapper.stereoPairWindow_s,
+              [this](core::TimeNs from, core::TimeNs to) { return odometry_.expectedMotion(from, to); }),
       keyframePolicy_(options.keyframes),
       gnssReader_(options.mapper.gnssReader) {}
 
@@ -68,7 +72,25 @@ void OdometryStage::addGnss(const mrpt::obs::CObservation& observation) {
                 core::formatUtc(core::fromMrptTime(observation.timestamp)));
 }
 
+void OdometryStage::addPing(PendingPing ping) { use(pairer_.add(std::move(ping))); }
+
+void OdometryStage::use(std::vector<StereoScan> scans) {
+  for (auto& scan : scans) {
+    odometry::AcousticScan acoustic;
+    acoustic.time = scan.time;
+    acoustic.points_vehicle.reserve(scan.points.size());
+    acoustic.sigma_m.reserve(scan.points.size());
+    for (const auto& point : scan.points) {
+      acoustic.points_vehicle.push_back(point.p_vehicle);
+      acoustic.sigma_m.push_back(point.sigma_m);
+    }
+    odometry_.addAcoustic(std::move(acoustic));
+    stereo_.push_back(std::move(scan));
+  }
+}
+
 void OdometryStage::finish() {
+  use(pairer_.finish());
   odometry_.finish();
   drain();
   reportFaults();
@@ -85,7 +107,7 @@ void OdometryStage::handle(const odometry::OdometryResult& result) {
   ++sweepCount_;
 
   OdometryUpdate update;
-  update.completeUntil = result.scanTime;
+  update.stereo = std::exchange(stereo_, {});
   if (result.status != odometry::OdometryStatus::skipped) {
     update.path = result.path;
     motion_.add(result);

@@ -11,9 +11,12 @@ OdometryStage::Options odometryStageOptions(const SurveyConfig& config) {
   options.mapper = config.mapper;
   options.odometry = config.odometry;
   options.keyframes = config.graph.keyframes;
+  options.sonar = config.sonar;
   auto& water = options.odometry.water;
   water.rejectBelow = config.mapper.onWater;
   water.heavePrior = water.heavePrior && config.mapper.onWater;
+  water.velocityPrior = water.velocityPrior && config.mapper.onWater;
+  options.odometry.seabed.enabled = options.odometry.seabed.enabled && config.mapper.onWater;
   water.height_m = config.mapper.waterline_m;
   water.margin_m = config.mapper.waterMargin_m;
   return options;
@@ -26,13 +29,6 @@ graph::GraphSlamOptions graphOptions(const SurveyConfig& config) {
   return options;
 }
 
-SonarStage::Options sonarStageOptions(const SurveyConfig& config) {
-  SonarStage::Options options;
-  options.sonar = config.sonar;
-  options.stereoPairWindow_s = config.mapper.stereoPairWindow_s;
-  return options;
-}
-
 }  // namespace
 
 SurveyMapper::SurveyMapper(const SurveyConfig& config, int threads)
@@ -41,7 +37,7 @@ SurveyMapper::SurveyMapper(const SurveyConfig& config, int threads)
       router_(config_.mapper, faults_),
       backend_(graphOptions(config_), config_.map),
       backendWorker_(threads > 1, static_cast<std::size_t>(config_.mapper.queueCapacity)),
-      sonar_(sonarStageOptions(config_), faults_,
+      sonar_(config_.sonar, faults_,
              [this](const SonarScan& scan) {
                backendWorker_.post(timed("back end: sonar scan", [this, scan] { backend_.addSonarScan(scan); }));
              }),
@@ -66,7 +62,11 @@ void SurveyMapper::push(const mrpt::obs::CObservation::Ptr& observation, const s
     case Role::SonarHorizontal:
     case Role::SonarVertical: {
       const auto ping = std::dynamic_pointer_cast<const obs::CObservationImagingSonar>(observation);
-      return sonarWorker_.post(timed("sonar: images", [this, role, ping] { sonar_.addPing({role, ping}); }));
+      const auto image = std::make_shared<std::promise<std::shared_ptr<const sonar::ProcessedPing>>>();
+      const PendingPing pending{role, core::fromMrptTime(ping->timestamp), core::toIsometry(ping->sensorPose),
+                                image->get_future().share()};
+      sonarWorker_.post(timed("sonar: images", [this, role, ping, image] { sonar_.addPing({role, ping}, *image); }));
+      return odometryWorker_.post(timed("odometry: stereo", [this, pending] { odometry_.addPing(pending); }));
     }
     case Role::None:
       return;
@@ -80,7 +80,7 @@ void SurveyMapper::onOdometry(OdometryUpdate update) {
     backendWorker_.post([this, fixes = std::move(update.fixes)] {
       for (const auto& fix : fixes) backend_.addGnss(fix);
     });
-  sonarWorker_.post(timed("sonar: placing, stereo", [this, update = std::move(update)] { sonar_.addPoses(update); }));
+  sonarWorker_.post(timed("sonar: placing", [this, update = std::move(update)] { sonar_.addPoses(update); }));
 }
 
 void SurveyMapper::finish() {

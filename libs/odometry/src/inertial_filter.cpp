@@ -129,6 +129,34 @@ double InertialFilter::measureHeave(const core::Isometry& T_imu_vehicle, double 
   return innovation / std::sqrt(innovationVariance);
 }
 
+void InertialFilter::measureVelocity(const core::Isometry& T_imu_vehicle, const Vector3d& turnRate_radps,
+                                     const Vector3d& velocity_mps, const Vector3d& sigma_mps) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!std::isfinite(sigma_mps[axis])) continue;
+    const Vector3d direction_imu = T_imu_vehicle.linear().col(axis);
+    const Vector3d velocity_imu = state_.R_odom_imu.transpose() * state_.velocity;
+    ErrorVector h = ErrorVector::Zero();
+    h.segment<3>(kVelocity) = state_.R_odom_imu * direction_imu;
+    h.segment<3>(kRotation) = direction_imu.cross(velocity_imu);
+    h.segment<3>(kGyroBias) = direction_imu.cross(T_imu_vehicle.translation());
+    const Vector3d atOrigin = velocity_imu + turnRate_radps.cross(T_imu_vehicle.translation());
+    const ErrorVector Ph = covariance_ * h;
+    const double innovation = velocity_mps[axis] - direction_imu.dot(atOrigin);
+    const double variance = h.dot(Ph) + sigma_mps[axis] * sigma_mps[axis];
+    state_ = moved(state_, Ph * (innovation / variance));
+    covariance_ -= Ph * Ph.transpose() / variance;
+  }
+}
+
+Matrix3d InertialFilter::upCovariance() const {
+  const Vector3d up_imu = -(state_.R_odom_imu.transpose() * state_.gravity).normalized();
+  Eigen::Matrix<double, 3, kErrorSize> J = Eigen::Matrix<double, 3, kErrorSize>::Zero();
+  J.middleCols<3>(kRotation) = core::skew(up_imu);
+  J.middleCols<3>(kGravity) =
+      -(Matrix3d::Identity() - up_imu * up_imu.transpose()) * state_.R_odom_imu.transpose() / state_.gravity.norm();
+  return J * covariance_ * J.transpose();
+}
+
 void InertialFilter::measurePose(const core::Isometry& T_odom_imu, const core::Matrix6& noise) {
   const core::Matrix6 prior = poseCovariance();
   const core::Matrix6 gain = (prior + noise).ldlt().solve(prior).transpose();

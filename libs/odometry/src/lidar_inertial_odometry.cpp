@@ -11,6 +11,8 @@ namespace {
 
 /// Without IMU these many scans tell the speed at the start.
 constexpr std::size_t kLidarOnlyRehearsal = 4;
+/// Poses of the trajectory (10 ms apart) over which the present motion is taken.
+constexpr std::size_t kMotionSamples = 10;
 
 OdometryResult skipped(const Scan& scan, OdometryReason reason) {
   OdometryResult result;
@@ -45,6 +47,19 @@ void LidarInertialOdometry::addImu(const ImuSample& sample) {
 
 void LidarInertialOdometry::addScan(Scan scan) { waiting_.push_back(std::move(scan)); }
 
+void LidarInertialOdometry::addAcoustic(AcousticScan scan) {
+  if (options_.seabed.enabled) acoustic_.push_back(std::move(scan));
+}
+
+core::Isometry LidarInertialOdometry::expectedMotion(core::TimeNs from, core::TimeNs to) const {
+  const auto& poses = trajectory_.poses();
+  if (poses.size() < 2) return core::Isometry::Identity();
+  const auto& last = poses.back();
+  const auto& before = poses[poses.size() - std::min<std::size_t>(poses.size(), kMotionSamples)];
+  const double share = core::secondsBetween(from, to) / core::secondsBetween(before.time, last.time);
+  return core::interpolate(core::Isometry::Identity(), before.T.inverse() * last.T, share);
+}
+
 std::optional<OdometryResult> LidarInertialOdometry::next() {
   if (waiting_.empty()) return std::nullopt;
   const Scan& scan = waiting_.front();
@@ -71,7 +86,12 @@ bool LidarInertialOdometry::isReady(const Scan& scan) const {
 }
 
 OdometryResult LidarInertialOdometry::process(const Scan& scan) {
-  OdometryResult result = tracker_->track(scan, imu_);
+  std::vector<AcousticScan> acoustic;
+  while (!acoustic_.empty() && acoustic_.front().time <= scan.endTime()) {
+    acoustic.push_back(std::move(acoustic_.front()));
+    acoustic_.pop_front();
+  }
+  OdometryResult result = tracker_->track(scan, imu_, acoustic);
   lastScanEnd_ = scan.endTime();
   if (tracker_->bridgedImu()) ++faults_.imuGaps;
   if (result.status == OdometryStatus::deadReckoned) ++faults_.scansDeadReckoned;
@@ -103,7 +123,7 @@ bool LidarInertialOdometry::tryStart() {
   for (const Scan& scan : waiting_) {
     if (scan.endTime() > windowEnd || (!hasImu && rehearsed == kLidarOnlyRehearsal)) break;
     if (scan.points_sensor.empty() || scan.endTime() <= lastEnd) continue;
-    rehearsal.track(scan, imu_);
+    rehearsal.track(scan, imu_, {});
     lastEnd = scan.endTime();
     ++rehearsed;
   }

@@ -13,7 +13,7 @@ void addScan(OptionTable& table, ScanOptions& o) {
       .add("max_range_m", o.maxRange_m, "farther returns are left out", positive())
       .add("row_stride", o.rowStride, "look at every n-th row of an organised sweep; 0: automatic", atLeast(0))
       .add("column_stride", o.columnStride, "look at every n-th column; 0: automatic", atLeast(0))
-      .add("max_points", o.maxPoints, "pixels looked at in a sweep with automatic strides", atLeast(1000))
+      .add("max_points", o.maxPoints, "returns looked at in a sweep with automatic strides", atLeast(1000))
       .addList("hull_box", o.hullBox,
                "the vessel itself in its own frame: x y z of the least corner, x y z of the greatest, m; empty: none");
 }
@@ -73,8 +73,26 @@ void addWater(OptionTable& table, WaterOptions& o) {
       .add("heave_sigma_m", o.heaveSigma_m, "standard deviation of the vessel's height about the waterline", positive())
       .add("heave_time_s", o.heaveTime_s, "over which one heave resembles the next", positive())
       .add("level_walk_m_rts", o.levelWalk_m_rts, "random walk of the water's level (tide)", atLeast(0))
+      .add("velocity_prior", o.velocityPrior, "the vessel goes ahead, slowly, and hardly sideways (needs an IMU)")
+      .add("speed_sigma_mps", o.speedSigma_mps, "standard deviation of the speed ahead", positive())
+      .add("drift_sigma_mps", o.driftSigma_mps, "standard deviation of the speed across", positive())
+      .add("speed_time_s", o.speedTime_s, "over which one speed resembles the next", positive())
       .add("level_give_up_sigma", o.giveUpSigma,
            "if the height stays this many standard deviations off, the water has moved (a lock)", positive());
+}
+
+void addSeabed(OptionTable& table, SeabedOptions& o) {
+  table.add("seabed", o.enabled, "register what the sonars see beside what the LiDAR sees")
+      .add("seabed_voxel_m", o.map.voxel_m, "edge of the finest voxels of the seabed's map", positive())
+      .add("seabed_map_max_thickness_m", o.map.maxThickness_m,
+           "standard deviation across a plane of the seabed's map; thicker is no plane", positive())
+      .add("seabed_map_radius_m", o.map.radius_m, "voxels of the seabed's map farther away are forgotten", positive())
+      .add("seabed_point_voxel_m", o.pointVoxel_m, "one acoustic point in each such cube is used", positive())
+      .add("seabed_least_sigma_m", o.leastSigma_m, "no acoustic point is believed better than this", positive())
+      .add("seabed_min_matches", o.minMatches, "acoustic points on known planes below which they are not registered",
+           atLeast(6))
+      .add("seabed_correlation", o.correlation, "this many neighbouring acoustic residuals count as one independent",
+           atLeast(1));
 }
 
 }  // namespace
@@ -92,6 +110,7 @@ core::OptionTable optionTable(OdometryOptions& o) {
   addMap(table, o.map);
   addRegistration(table, o.registration);
   addWater(table, o.water);
+  addSeabed(table, o.seabed);
   return table;
 }
 

@@ -13,8 +13,6 @@ namespace {
 constexpr double kLeastExtent = 0.08;
 /// A plane's thickness may be at most this share of its smaller extent.
 constexpr double kMostAspect = 0.35;
-/// Share of a plane's thickness that is shape and not noise, so that more points do not average it out.
-constexpr double kShapeShare = 0.2;
 /// A fit is renewed when the number of points has grown by this factor.
 constexpr double kRefitGrowth = 1.3;
 
@@ -133,7 +131,7 @@ bool PlaneMap::match(const Eigen::Vector3d& point, PlaneMatch& out) const {
     out.distance_m = out.normal.dot(fromMean);
     const double along2 = fromMean.squaredNorm() - out.distance_m * out.distance_m;
     out.variance_m2 = voxel.offsetVariance + voxel.tiltVariance * along2;
-    out.tiltVariance_rad2 = voxel.tiltVariance * (1.0 + kShapeShare * voxel.count);
+    out.tiltVariance_rad2 = voxel.tiltVariance * (1.0 + options_.shapeShare * voxel.count);
     return true;
   }
   return false;

@@ -21,7 +21,7 @@ constexpr double kMedianOfAbs = 0.6745;
 /// Residuals may be this much smaller than expected and be believed; much smaller ones come from a map that has been
 /// fitted to them.
 constexpr double kLeastScale = 0.5;
-/// Share of an unknown motion that may show in directions that are seen.
+/// Least share of an unknown motion that may show in directions that are seen.
 constexpr double kUnseenLeak = 0.01;
 /// The share of the prior in the kernel's width falls by this from one iteration to the next.
 constexpr double kPriorFade = 0.1;
@@ -132,6 +132,10 @@ NormalEquations linearise(const BodyPoints& points, const PlaneMap& map, const c
     pretended.add(residual, w);
   }
   sum.pretended = pretended.matrix(T.linear());
+  // The directions are eigenvectors of sums over planes whose normals are off independently.
+  const double tilt2 =
+      sum.pretended.topLeftCorner<3, 3>().trace() / std::max(1e-12, sum.A.topLeftCorner<3, 3>().trace());
+  sum.unseenLeak2 = options.degeneracyRatio * tilt2 * options.correlation / std::max<double>(1, sum.matches);
   sum.meanLever2_m2 = pretended.meanLever2_m2();
   return sum;
 }
@@ -169,7 +173,8 @@ void allowForUnseen(const std::vector<Vector6>& unseen, const Matrix6& priorCova
   }
   if (unknown <= 0) return;
   // (A^-1 + C)^-1 = A - A (C^-1 + A)^-1 A, which holds for a singular A, too; the solution of A x = b stays.
-  const Matrix6 inverseNoise = (metric / (kUnseenLeak * kUnseenLeak * unknown)).asDiagonal();
+  const double leak2 = std::max(kUnseenLeak * kUnseenLeak, equations.unseenLeak2);
+  const Matrix6 inverseNoise = (metric / (leak2 * unknown)).asDiagonal();
   const Matrix6 gain = (inverseNoise + equations.A).ldlt().solve(equations.A).transpose();
   equations.b -= (gain * equations.b).eval();
   equations.A -= (gain * equations.A).eval();

@@ -12,16 +12,18 @@ struct Stride {
   std::size_t row = 1, column = 1;
 };
 
-/// The strides asked for, or the smallest that keep the count, with about equal angles between rows and columns.
+/// The strides asked for, or the smallest that keep the count of returns, with about equal angles between rows and
+/// columns. Over open water few beams come back, and each of them counts.
 Stride strideFor(const obs::CObservationLidarSweep& sweep, const ScanOptions& options) {
   Stride stride{static_cast<std::size_t>(std::max(options.rowStride, 1)),
                 static_cast<std::size_t>(std::max(options.columnStride, 1))};
   const auto [lowest, highest] = std::minmax_element(sweep.beamAltitude_rad.begin(), sweep.beamAltitude_rad.end());
   const double rowStep_rad = (*highest - *lowest) / std::max<double>(1, sweep.rowCount - 1.0);
   const double columnStep_rad = 2 * M_PI / sweep.columnCount;
+  const auto& range = sweep.echoes.front().range;
+  const auto returns = range.size() - static_cast<std::size_t>(std::count(range.begin(), range.end(), 0U));
   const auto tooMany = [&] {
-    return (sweep.rowCount / stride.row) * (sweep.columnCount / stride.column) >
-           static_cast<std::size_t>(options.maxPoints);
+    return returns > stride.row * stride.column * static_cast<std::size_t>(options.maxPoints);
   };
   while (tooMany()) {
     const bool widenColumns = options.rowStride > 0 || (columnStep_rad * stride.column <= rowStep_rad * stride.row) ||

@@ -1,5 +1,8 @@
 #include "scan_tracker.h"
 
+#include <Eigen/SVD>
+#include <algorithm>
+
 #include "s2s/odometry/deskew.h"
 #include "s2s/odometry/downsample.h"
 
@@ -14,6 +17,13 @@ using Eigen::Vector3d;
 /// A correction that moves a point at this range by more than `kRedeskew_m` is worth a second deskew.
 constexpr double kRedeskewRange_m = 30.0;
 constexpr double kRedeskew_m = 0.01;
+/// Standard deviations of the attitude that are allowed for where the water's surface is told from a low shore, and the
+/// most that is allowed for: near the vessel more would let the water in.
+constexpr double kTiltDoubt = 2.0;
+constexpr double kMostTiltDoubt_rad = 4.0e-3;
+/// Singular values below this are noise of the directions, and the share of a motion that may lie among those that a
+/// second sensor does not see, if that one is to be asked about it.
+constexpr double kLeastSingular = 0.3, kMostCovered = 0.5;
 /// Overlap of scans that deskewing allows for.
 constexpr double kRecent_s = 1.0;
 
@@ -29,6 +39,24 @@ Matrix6 adjoint(const Isometry& T) {
   return A;
 }
 
+/// Whether some motion of `unseen` lies outside of what a second sensor does not see either, by more than the noise of
+/// directions. Two sensors blind for the same motion, each a little off in its direction, would otherwise between them
+/// pretend to know what neither sees.
+bool tellsMore(const std::vector<core::Vector6>& unseen, const std::vector<core::Vector6>& unseenByOther) {
+  if (unseen.empty() || unseenByOther.empty()) return true;
+  Eigen::MatrixXd blind(3, static_cast<Eigen::Index>(unseenByOther.size()));
+  for (std::size_t i = 0; i < unseenByOther.size(); ++i)
+    blind.col(static_cast<Eigen::Index>(i)) = unseenByOther[i].head<3>().stableNormalized();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(blind, Eigen::ComputeThinU);
+  return std::any_of(unseen.begin(), unseen.end(), [&](const core::Vector6& motion) {
+    const Vector3d way = motion.head<3>().stableNormalized();
+    double covered = 0;
+    for (Eigen::Index i = 0; i < svd.singularValues().size(); ++i)
+      if (svd.singularValues()[i] > kLeastSingular) covered += std::pow(svd.matrixU().col(i).dot(way), 2);
+    return covered < kMostCovered;
+  });
+}
+
 double pointVariance(double range_m, const RegistrationOptions& options) {
   const double across = options.angleSigma_rad * range_m;
   return options.rangeSigma_m * options.rangeSigma_m + across * across;
@@ -41,18 +69,20 @@ ScanTracker::ScanTracker(const OdometryOptions& options, bool hasImu, const Isom
       T_vehicle_imu_(T_vehicle_imu),
       T_imu_vehicle_(T_vehicle_imu.inverse()),
       filter_(options.imu, options.motion, hasImu),
-      map_(options.map) {}
+      map_(options.map),
+      seabed_(options.seabed.map) {}
 
 void ScanTracker::start(const NavState& state, const ErrorMatrix& covariance) {
   filter_.reset(state, covariance);
   map_.clear();
+  seabed_.clear();
   drift_.setZero();
   recent_ = core::Trajectory({{state.time, T_odom_vehicle()}});
   T_odom_vehicle_last_ = T_odom_vehicle();
   mapCentre_ = T_odom_vehicle_last_.translation();
 }
 
-OdometryResult ScanTracker::track(const Scan& scan, const ImuBuffer& imu) {
+OdometryResult ScanTracker::track(const Scan& scan, const ImuBuffer& imu, const std::vector<AcousticScan>& acoustic) {
   OdometryResult result;
   result.scanTime = scan.time;
   result.time = scan.endTime();
@@ -67,12 +97,15 @@ OdometryResult ScanTracker::track(const Scan& scan, const ImuBuffer& imu) {
 
   if (filter_.hasImu() && options_.water.heavePrior && !map_.empty())
     useHeavePrior(core::secondsBetween(path.front().time, path.back().time));
+  if (filter_.hasImu() && options_.water.velocityPrior && !steps.empty())
+    useVelocityPrior(core::secondsBetween(path.front().time, path.back().time), steps.back().angularRate_radps);
 
   Points points = thin(scan);
   deskew(scan, correctedPath(path, filter_.state().T_odom_imu()), points);
   rejectBelowWater(points, result);
   result.pointCount = points.registered.size();
 
+  std::vector<core::Vector6> unseen;
   if (map_.empty()) {
     result.status = OdometryStatus::firstScan;
   } else {
@@ -91,9 +124,11 @@ OdometryResult ScanTracker::track(const Scan& scan, const ImuBuffer& imu) {
         result.reason = OdometryReason::weakGeometry;
       }
     }
+    unseen = fit.degenerateMotions;
     const Matrix6 toVehicle = vehicleByImuError();
-    for (const auto& motion : fit.degenerateMotions) result.degenerateMotions.emplace_back(toVehicle * motion);
+    for (const auto& motion : unseen) result.degenerateMotions.emplace_back(toVehicle * motion);
   }
+  if (!acoustic.empty()) useSeabed(acoustic, path, unseen, result);
   const core::Trajectory corrected = correctedPath(path, filter_.state().T_odom_imu());
   for (std::size_t i = 1; i < corrected.size(); ++i) {
     result.path.push_back(corrected.poses()[i]);
@@ -119,6 +154,15 @@ void ScanTracker::useHeavePrior(double sinceLast_s) {
     filter_.loosenFloatingHeight(kLostLevel_m * kLostLevel_m);
     heaveMisfit_ = 0;
   }
+}
+
+void ScanTracker::useVelocityPrior(double sinceLast_s, const Vector3d& angularRate_radps) {
+  const WaterOptions& water = options_.water;
+  // One speed lasts over many scans, which together must not count for more than one measurement.
+  const double share = std::min(1.0, sinceLast_s / (2 * water.speedTime_s));
+  const Vector3d sigma(water.speedSigma_mps, water.driftSigma_mps, std::numeric_limits<double>::infinity());
+  filter_.measureVelocity(T_imu_vehicle_, angularRate_radps - filter_.state().gyroBias, Vector3d::Zero(),
+                          sigma / std::sqrt(share));
 }
 
 ScanTracker::Points ScanTracker::thin(const Scan& scan) const {
@@ -147,9 +191,13 @@ void ScanTracker::rejectBelowWater(Points& points, OdometryResult& result) const
     const Vector3d up_odom = -filter_.state().gravity.normalized();
     const Eigen::Vector3f up_vehicle = (T_odom_vehicle().linear().transpose() * up_odom).cast<float>();
     const auto lowest = static_cast<float>(options_.water.height_m + options_.water.margin_m);
+    // Far away the height is only as good as the attitude: a low shore must not be taken for water.
+    const Eigen::Matrix3d doubt =
+        T_vehicle_imu_.linear() * filter_.upCovariance() * T_vehicle_imu_.linear().transpose();
+    const auto tilt_rad = static_cast<float>(std::min(kMostTiltDoubt_rad, kTiltDoubt * std::sqrt(doubt.trace() / 2)));
     std::size_t kept = 0;
     for (std::size_t i = 0; i < points.vehicle.size(); ++i) {
-      if (up_vehicle.dot(points.vehicle[i]) < lowest) continue;
+      if (up_vehicle.dot(points.vehicle[i]) < lowest - tilt_rad * points.vehicle[i].norm()) continue;
       points.sensor[kept] = points.sensor[i];
       points.offset_s[kept] = points.offset_s[i];
       points.vehicle[kept] = points.vehicle[i];
@@ -203,6 +251,49 @@ RegistrationResult ScanTracker::registerScan(const Scan& scan, const std::vector
   return fit;
 }
 
+BodyPoints ScanTracker::seabedPoints(const std::vector<AcousticScan>& acoustic, const core::Trajectory& path) const {
+  std::vector<Eigen::Vector3f> points_vehicle;
+  std::vector<float> sigma_m;
+  const Isometry T_end_odom = path.back().T.inverse();
+  for (const auto& scan : acoustic) {
+    const auto T_odom_then = path.at(scan.time);
+    if (!T_odom_then) continue;
+    const Eigen::Isometry3f T_end_then = (T_end_odom * *T_odom_then).cast<float>();
+    for (const auto& p : scan.points_vehicle) points_vehicle.emplace_back(T_end_then * p);
+    sigma_m.insert(sigma_m.end(), scan.sigma_m.begin(), scan.sigma_m.end());
+  }
+  BodyPoints body;
+  for (const auto i : onePerCube(points_vehicle, options_.seabed.pointVoxel_m)) {
+    body.points_body.emplace_back(T_imu_vehicle_ * points_vehicle[i].cast<double>());
+    const double sigma = std::max<double>(sigma_m[i], options_.seabed.leastSigma_m);
+    body.variance_m2.push_back(sigma * sigma);
+  }
+  return body;
+}
+
+void ScanTracker::useSeabed(const std::vector<AcousticScan>& acoustic, const std::vector<NavState>& path,
+                            const std::vector<core::Vector6>& unseen, OdometryResult& result) {
+  const PoseBelief prior{filter_.state().T_odom_imu(), filter_.poseCovariance()};
+  const BodyPoints points = seabedPoints(acoustic, correctedPath(path, prior.T_map_body));
+  RegistrationOptions options = options_.registration;
+  options.minMatches = options_.seabed.minMatches;
+  options.correlation = options_.seabed.correlation;
+  const RegistrationResult fit = registerPoints(points, seabed_, prior, prior.T_map_body, options);
+  if (fit.end != RegistrationEnd::tooFewMatches && tellsMore(unseen, fit.degenerateMotions)) {
+    filter_.setPosePosterior(fit.pose.T_map_body, fit.pose.covariance);
+    result.seabedMatchCount = fit.matches;
+    if (result.status == OdometryStatus::deadReckoned) {
+      result.status = fit.degenerateMotions.empty() ? OdometryStatus::registered : OdometryStatus::degenerate;
+      result.reason = fit.degenerateMotions.empty() ? OdometryReason::none : OdometryReason::weakGeometry;
+    }
+  }
+  const Isometry T_odom_imu = filter_.state().T_odom_imu();
+  std::vector<Vector3d> inOdom;
+  inOdom.reserve(points.points_body.size());
+  for (const auto& p : points.points_body) inOdom.emplace_back(T_odom_imu * p);
+  seabed_.insert(inOdom);
+}
+
 void ScanTracker::insert(const Points& points) {
   const Isometry T = T_odom_vehicle();
   std::vector<Vector3d> inOdom;
@@ -212,6 +303,7 @@ void ScanTracker::insert(const Points& points) {
   if ((T.translation() - mapCentre_).norm() > 0.1 * options_.map.radius_m) {
     mapCentre_ = T.translation();
     map_.forgetBeyond(mapCentre_, options_.map.radius_m);
+    seabed_.forgetBeyond(mapCentre_, options_.seabed.map.radius_m);
   }
 }
 

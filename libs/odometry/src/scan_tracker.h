@@ -1,6 +1,7 @@
 #pragma once
 
 #include "s2s/core/trajectory.h"
+#include "s2s/odometry/acoustic_scan.h"
 #include "s2s/odometry/imu_buffer.h"
 #include "s2s/odometry/inertial_filter.h"
 #include "s2s/odometry/odometry_result.h"
@@ -20,7 +21,8 @@ class ScanTracker {
   void start(const NavState& state, const ErrorMatrix& covariance);
 
   /// @param scan not empty, and ending after the filter's time
-  OdometryResult track(const Scan& scan, const ImuBuffer& imu);
+  /// @param acoustic scans up to the end of `scan`; those from before the last second are of no use any more
+  OdometryResult track(const Scan& scan, const ImuBuffer& imu, const std::vector<AcousticScan>& acoustic);
 
   const InertialFilter& filter() const { return filter_; }
   const core::Isometry& T_vehicle_imu() const { return T_vehicle_imu_; }
@@ -37,6 +39,7 @@ class ScanTracker {
   };
 
   void useHeavePrior(double sinceLast_s);
+  void useVelocityPrior(double sinceLast_s, const Eigen::Vector3d& angularRate_radps);
   Points thin(const Scan& scan) const;
   void deskew(const Scan& scan, const core::Trajectory& path, Points& points) const;
   void rejectBelowWater(Points& points, OdometryResult& result) const;
@@ -46,6 +49,12 @@ class ScanTracker {
   /// Takes an error of the filter's pose (position in odom, rotation in imu) to the right perturbation of the
   /// vehicle's pose.
   core::Matrix6 vehicleByImuError() const;
+  /// Updates the filter by registering the acoustic points to the map of the seabed, and takes them into it.
+  /// @param unseen motions that the LiDAR scan did not see; only if the sonars see some of them are they asked
+  void useSeabed(const std::vector<AcousticScan>& acoustic, const std::vector<NavState>& path,
+                 const std::vector<core::Vector6>& unseen, OdometryResult& result);
+  /// All points in the vehicle's frame at the path's end, thinned, with their variances.
+  BodyPoints seabedPoints(const std::vector<AcousticScan>& acoustic, const core::Trajectory& path) const;
   void insert(const Points& points);
   void describe(const Points& points, const Eigen::Vector3d& angularRate_radps, OdometryResult& result);
   void accountDrift(const Points& points, OdometryResult& result);
@@ -54,6 +63,7 @@ class ScanTracker {
   core::Isometry T_vehicle_imu_, T_imu_vehicle_;
   InertialFilter filter_;
   PlaneMap map_;
+  PlaneMap seabed_;
   core::Trajectory recent_;  // T_odom_vehicle of the last moments, as finally estimated
   core::Matrix6 drift_ = core::Matrix6::Zero();
   core::Isometry T_odom_vehicle_last_ = core::Isometry::Identity();

@@ -51,14 +51,18 @@ void lidarSweep(benchmark::State& state) {
   }
 }
 
-/// The whole canal survey, two seconds of it; the counter is survey time over wall time.
+/// The canal survey with all its sensors, LiDAR rows and sweep rate as given; the counter is survey time over wall
+/// time.
 void survey(benchmark::State& state) {
+  constexpr double kSurvey_s = 6;
   sim::SimulationOptions options = canal().options;
-  options.duration_s = 2;
+  options.duration_s = kSurvey_s;
+  options.lidar.rows = static_cast<int>(state.range(0));
+  options.lidar.rate_hz = static_cast<double>(state.range(1));
   const sim::SurveySimulator simulator(canal().scene, 1, options);
   for (auto _ : state) benchmark::DoNotOptimize(simulator.run({}));
   state.counters["x_real_time"] =
-      benchmark::Counter(2.0 * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+      benchmark::Counter(kSurvey_s * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
 
 }  // namespace
@@ -66,4 +70,4 @@ void survey(benchmark::State& state) {
 BENCHMARK(horizontalPing)->Unit(benchmark::kMillisecond);
 BENCHMARK(verticalPing)->Unit(benchmark::kMillisecond);
 BENCHMARK(lidarSweep)->Arg(64)->Arg(128)->Unit(benchmark::kMillisecond);
-BENCHMARK(survey)->Unit(benchmark::kSecond)->UseRealTime();
+BENCHMARK(survey)->Args({64, 10})->Args({128, 20})->Unit(benchmark::kSecond)->UseRealTime();

@@ -10,6 +10,7 @@
 #include "s2s/core/transform.h"
 #include "s2s/graph/keyframe.h"
 #include "s2s/map/scan.h"
+#include "s2s/mapper/stereo_pairer.h"
 #include "s2s/sonar/leading_edge.h"
 
 namespace s2s::mapper {
@@ -32,11 +33,9 @@ struct KeyframeData {
 
 /// Progress of the odometry after one sweep.
 struct OdometryUpdate {
-  std::vector<core::TimedPose> path;  ///< T_odom_vehicle at high rate since the last update
-  /// All records of the survey earlier than this have been handed out: whoever waits for a partner need not wait for
-  /// one from before.
-  core::TimeNs completeUntil = 0;
+  std::vector<core::TimedPose> path;       ///< T_odom_vehicle at high rate since the last update
   std::shared_ptr<KeyframeData> keyframe;  ///< null if the sweep is none
+  std::vector<StereoScan> stereo;          ///< points of the pairs of pings completed since the last update
   std::vector<graph::GnssFix> fixes;       ///< whose time the path has reached
 };
 

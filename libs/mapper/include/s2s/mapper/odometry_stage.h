@@ -19,7 +19,8 @@
 namespace s2s::mapper {
 
 /// First stage: IMU samples and LiDAR sweeps in, odometry out, one update a sweep; sweeps far enough from the last
-/// keyframe come with all their points, deskewed. GNSS fixes pass through and get the pose of their time.
+/// keyframe come with all their points, deskewed. Pairs of pings are triangulated here, because the odometry registers
+/// what the sonars see beside what the LiDAR sees. GNSS fixes pass through and get the pose of their time.
 class OdometryStage {
  public:
   struct Options {
@@ -27,6 +28,7 @@ class OdometryStage {
     odometry::OdometryOptions odometry;
     graph::KeyframePolicyOptions keyframes;
     odometry::DeskewOptions deskew;
+    sonar::SonarOptions sonar;
   };
   using Output = std::function<void(OdometryUpdate)>;
 
@@ -35,6 +37,8 @@ class OdometryStage {
   void addImu(const mrpt::obs::CObservation& observation);
   /// A sweep or a point cloud.
   void addLidar(const mrpt::obs::CObservation::Ptr& observation);
+  /// A ping; waits for its image where a pair is complete.
+  void addPing(PendingPing ping);
   /// A record of the GNSS receiver.
   void addGnss(const mrpt::obs::CObservation& observation);
   /// Nothing more comes: processes what waits.
@@ -46,9 +50,12 @@ class OdometryStage {
   /// Origin of the frame of the GNSS fixes, once there was one.
   const std::optional<GeodeticPosition>& gnssOrigin() const { return gnssReader_.origin(); }
   std::uint64_t sweepCount() const { return sweepCount_; }
+  /// Pairs of pings that were searched for stereo points.
+  std::uint64_t pairCount() const { return pairer_.pairCount(); }
 
  private:
   void drain();
+  void use(std::vector<StereoScan> scans);
   void handle(const odometry::OdometryResult& result);
   std::shared_ptr<KeyframeData> makeKeyframe(const odometry::OdometryResult& result,
                                              const mrpt::obs::CObservation& sweep);
@@ -62,6 +69,8 @@ class OdometryStage {
   Output output_;
   odometry::ScanMaker scanMaker_;
   odometry::LidarInertialOdometry odometry_;
+  StereoPairer pairer_;
+  std::vector<StereoScan> stereo_;  // not handed on yet
   odometry::MotionAccumulator motion_;
   graph::KeyframePolicy keyframePolicy_;
   std::deque<mrpt::obs::CObservation::Ptr> waiting_;  // sweeps whose pose is not known yet

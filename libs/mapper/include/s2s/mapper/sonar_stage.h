@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <future>
 #include <memory>
 
 #include "s2s/core/trajectory.h"
@@ -16,55 +17,45 @@ namespace s2s::mapper {
 
 /// Second stage: pings in, line-scans and stereo points out, each with the odometry's pose at its time.
 ///
-/// Images are processed as pings come; placing waits until the odometry covers a ping's time, and pairing until no
-/// better partner can come. So the output depends on the records' times only, not on how threads interleave.
+/// Images are processed as pings come and handed to the odometry, whose pairs of pings come back as stereo points;
+/// placing waits until the odometry covers a ping's time. So the output depends on the records' times only, not on how
+/// threads interleave.
 class SonarStage {
  public:
-  struct Options {
-    sonar::SonarOptions sonar;
-    double stereoPairWindow_s = 0.04;
-  };
   struct Ping {
     Role role = Role::SonarHorizontal;
     std::shared_ptr<const obs::CObservationImagingSonar> observation;
   };
   using Output = std::function<void(SonarScan)>;
 
-  SonarStage(const Options& options, FaultLog& faults, Output output);
+  SonarStage(const sonar::SonarOptions& options, FaultLog& faults, Output output);
 
-  void addPing(const Ping& ping);
-  void addPoses(const OdometryUpdate& update);
+  /// @param image receives the processed ping; null if the ping is unusable
+  void addPing(const Ping& ping, std::promise<std::shared_ptr<const sonar::ProcessedPing>>& image);
+  void addPoses(OdometryUpdate update);
   /// Nothing more comes: places what can be placed.
   void finish();
-
-  /// Pairs of pings that were searched for stereo points.
-  std::uint64_t pairCount() const { return pairCount_; }
 
  private:
   struct Waiting {
     core::TimeNs time = 0;
     core::Isometry T_vehicle_sonar = core::Isometry::Identity();
-    sonar::ProcessedPing ping;
-    bool placed = false;
+    std::shared_ptr<const sonar::ProcessedPing> ping;
   };
   using Queue = std::deque<Waiting>;
 
-  /// Does all that can be done now that the odometry's path and the records until `completeUntil` are known.
-  void advance(core::TimeNs completeUntil);
+  /// Places all that the odometry's path covers.
+  void advance();
   void placeLineScans(Queue& pings, map::Layer layer);
   void placeLineScan(const Waiting& waiting, map::Layer layer, const core::Isometry& T_odom_vehicle);
-  /// Pairs the oldest ping of the vertical (slower) sonar; false if it has to wait.
-  bool pairOldestVertical(core::TimeNs completeUntil);
-  const Waiting* nearestHorizontal(core::TimeNs time) const;
-  void fuse(const Waiting& horizontal, const Waiting& vertical);
+  void placeStereo();
 
-  Options options_;
   FaultLog& faults_;
   Output output_;
-  sonar::SonarStereo stereo_;
+  sonar::SonarStereo images_;
   Queue horizontal_, vertical_;
   core::Trajectory poses_;  // T_odom_vehicle
-  std::uint64_t pairCount_ = 0;
+  std::deque<StereoScan> stereo_;
 };
 
 }  // namespace s2s::mapper

@@ -47,6 +47,14 @@ class InertialFilter {
   /// @return the innovation over its expected standard deviation
   double measureHeave(const core::Isometry& T_imu_vehicle, double heave_m, double sigma_m);
 
+  /// Takes a measurement of the velocity of the vehicle's origin in its own frame; axes of infinite sigma are left out.
+  /// @param turnRate_radps of the IMU, in its frame, without bias
+  void measureVelocity(const core::Isometry& T_imu_vehicle, const Eigen::Vector3d& turnRate_radps,
+                       const Eigen::Vector3d& velocity_mps, const Eigen::Vector3d& sigma_mps);
+
+  /// Covariance of the direction of up in the IMU's frame [rad^2].
+  Eigen::Matrix3d upCovariance() const;
+
   /// Adds to the floating height's variance.
   void loosenFloatingHeight(double variance_m2) { covariance_(kFloating, kFloating) += variance_m2; }
 

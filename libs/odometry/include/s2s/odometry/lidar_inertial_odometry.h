@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "s2s/core/trajectory.h"
+#include "s2s/odometry/acoustic_scan.h"
 #include "s2s/odometry/imu_buffer.h"
 #include "s2s/odometry/odometry_result.h"
 #include "s2s/odometry/options.h"
@@ -40,6 +41,8 @@ class LidarInertialOdometry {
 
   void addImu(const ImuSample& sample);
   void addScan(Scan scan);
+  /// Points of the sonars; used with the scan during which they were measured, or the next one if they come too late.
+  void addAcoustic(AcousticScan scan);
   /// The next scan's result, or nothing until more data (or `finish`) comes.
   std::optional<OdometryResult> next();
   /// No more data will come: scans that wait are processed with what there is.
@@ -52,6 +55,11 @@ class LidarInertialOdometry {
   void forgetTrajectoryBefore(core::TimeNs time) { trajectory_.forgetBefore(time); }
 
   bool usesImu() const;
+
+  /// Motion from `from` to `to`, moments not far after the last result: T_from_to if speed and turn rate stay as they
+  /// were; no motion before the first result.
+  core::Isometry expectedMotion(core::TimeNs from, core::TimeNs to) const;
+
   const OdometryFaults& faults() const { return faults_; }
 
  private:
@@ -62,6 +70,7 @@ class LidarInertialOdometry {
   OdometryOptions options_;
   ImuBuffer imu_;
   std::deque<Scan> waiting_;
+  std::deque<AcousticScan> acoustic_;  // in order of time
   std::unique_ptr<ScanTracker> tracker_;
   core::Trajectory trajectory_;
   OdometryFaults faults_;

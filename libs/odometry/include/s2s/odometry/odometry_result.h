@@ -56,9 +56,10 @@ struct OdometryResult {
   /// about 1 m.
   std::vector<core::Vector6> degenerateMotions;
   int iterations = 0;
-  std::size_t pointCount = 0;  ///< tried for registration
-  std::size_t matchCount = 0;  ///< found on a plane of the map
-  double residualScale = 0;    ///< residuals over their expectation; much above 1: the map does not fit
+  std::size_t pointCount = 0;        ///< tried for registration
+  std::size_t matchCount = 0;        ///< found on a plane of the map
+  std::size_t seabedMatchCount = 0;  ///< acoustic points found on a plane of the seabed's map; 0: not registered
+  double residualScale = 0;          ///< residuals over their expectation; much above 1: the map does not fit
 
   std::size_t ownHullCount = 0, outOfRangeCount = 0, belowWaterCount = 0;  ///< returns left out
 

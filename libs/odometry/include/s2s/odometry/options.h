@@ -11,7 +11,7 @@ struct ScanOptions {
   /// Every n-th row and column of an organised sweep, or every n-th point of a cloud; 0: as `maxPoints` asks.
   int rowStride = 0;
   int columnStride = 0;
-  int maxPoints = 16384;  ///< number of pixels looked at in a sweep when the strides are automatic
+  int maxPoints = 10000;  ///< returns of a sweep that are looked at when the strides are automatic
   /// Box of the vessel itself in its own frame: x, y, z of the least corner, then of the greatest [m]; empty: none.
   std::vector<double> hullBox;
 };
@@ -44,6 +44,7 @@ struct PlaneMapOptions {
   int maxPoints = 100;           ///< a voxel with this many points is settled and takes no more
   double maxThickness_m = 0.06;  ///< standard deviation across a plane; thicker voxels are left to finer levels
   double radius_m = 200.0;       ///< voxels further from the vehicle are forgotten
+  double shapeShare = 0.2;       ///< of a plane's thickness that is shape: more points do not average it out
 };
 
 /// Scan-to-map registration.
@@ -53,7 +54,7 @@ struct RegistrationOptions {
   double rangeSigma_m = 0.02;      ///< noise of a range
   double angleSigma_rad = 0.5e-3;  ///< noise of a direction; footprint and surface roughness included
   int maxIterations = 12;
-  int minMatches = 60;
+  int minMatches = 20;
   double gateSigma = 3.5;  ///< matches further off than this many standard deviations are left out
   double stopTranslation_m = 5.0e-4;
   double stopRotation_rad = 2.0e-5;
@@ -73,10 +74,29 @@ struct WaterOptions {
   double heaveSigma_m = 0.1;        ///< standard deviation of the vehicle's origin about that height
   double heaveTime_s = 1.0;         ///< over which one heave is correlated with the next
   double levelWalk_m_rts = 2.0e-3;  ///< random walk of that height: tide, load
-  double giveUpSigma = 3.0;         ///< if the height stays this far off, the water is taken to have moved (a lock)
-  bool rejectBelow = false;         ///< leave out returns below the surface
-  double height_m = 0.0;            ///< height of the surface in the vehicle's frame, at rest
-  double margin_m = 0.3;            ///< returns this little above the surface are left out, too
+  /// Soft knowledge that a displacement hull goes ahead, slowly, and hardly sideways: what keeps the speed bounded over
+  /// open water. Standard deviations about zero of the velocity ahead and across.
+  bool velocityPrior = true;
+  double speedSigma_mps = 2.0;
+  double driftSigma_mps = 0.5;  ///< leeway, current, slip in turns
+  double speedTime_s = 10.0;    ///< over which one speed is correlated with the next
+  double giveUpSigma = 3.0;     ///< if the height stays this far off, the water is taken to have moved (a lock)
+  bool rejectBelow = false;     ///< leave out returns below the surface
+  double height_m = 0.0;        ///< height of the surface in the vehicle's frame, at rest
+  double margin_m = 0.3;        ///< returns this little above the surface are left out, too
+};
+
+/// Registration of what the sonars see to a map of its own. It is asked only about motions that the LiDAR does not see:
+/// over open water it alone tells how the vehicle moves, between quays it changes nothing.
+struct SeabedOptions {
+  bool enabled = true;
+  /// One level: at a coarser one ripples would pass for a flat seabed, and it is they that tell the motion. The planes'
+  /// thickness is the noise of the acoustic points.
+  PlaneMapOptions map{0.4, 1, 12, 300, 0.12, 40.0, 0.02};
+  double pointVoxel_m = 0.2;   ///< one point in each such cube is used
+  double leastSigma_m = 0.04;  ///< no acoustic point is believed better than this
+  int minMatches = 40;
+  double correlation = 10.0;  ///< points of one ping share more errors than those of a sweep
 };
 
 /// Use of the IMU.
@@ -96,6 +116,7 @@ struct OdometryOptions {
   PlaneMapOptions map;
   RegistrationOptions registration;
   WaterOptions water;
+  SeabedOptions seabed;
 };
 
 }  // namespace s2s::odometry

@@ -42,6 +42,7 @@ struct NormalEquations {
   /// Information that the noise of the planes' normals pretends: sum of w times the covariance of h.
   core::Matrix6 pretended = core::Matrix6::Zero();
   double meanLever2_m2 = 0;  ///< mean |p_body|^2
+  double unseenLeak2 = 0;    ///< squared share of an unseen motion that may show in what is seen, by the normals' noise
   std::size_t matches = 0;
   double residualScale = 0;
   double priorRatio = 0;  ///< greatest variance of a residual from the prior over that of its noise
@@ -63,8 +64,8 @@ NormalEquations linearise(const BodyPoints& points, const PlaneMap& map, const c
 std::vector<core::Vector6> removePretended(NormalEquations& equations, double ratio);
 
 /// Weakens what a scan says where much is unknown along unseen motions: their directions come from the map and are off
-/// by some milliradians, so that an error along them shows in the others, again and again the same way. Without this
-/// the filter would believe, scan by scan, to know what nothing in sight tells.
+/// by as much as the noise of the normals leaves, so that an error along them shows in the others, again and again the
+/// same way. Without this the filter would believe, scan by scan, to know what nothing in sight tells.
 void allowForUnseen(const std::vector<core::Vector6>& unseen, const core::Matrix6& priorCovariance,
                     NormalEquations& equations);
 

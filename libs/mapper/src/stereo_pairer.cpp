@@ -1,0 +1,62 @@
+#include "s2s/mapper/stereo_pairer.h"
+
+#include <cstdlib>
+#include <limits>
+
+namespace s2s::mapper {
+
+StereoPairer::StereoPairer(const sonar::SonarOptions& options, double window_s, Motion motion)
+    : stereo_(options.horizontal, options.vertical, options.stereo),
+      window_(core::durationNs(window_s)),
+      motion_(std::move(motion)) {}
+
+std::vector<StereoScan> StereoPairer::add(PendingPing ping) {
+  const core::TimeNs time = ping.time;
+  (ping.role == Role::SonarHorizontal ? horizontal_ : vertical_).push_back(std::move(ping));
+  return pairUntil(time);
+}
+
+std::vector<StereoScan> StereoPairer::finish() { return pairUntil(std::numeric_limits<core::TimeNs>::max()); }
+
+std::vector<StereoScan> StereoPairer::pairUntil(core::TimeNs newest) {
+  std::vector<StereoScan> scans;
+  while (!vertical_.empty() && newest - window_ > vertical_.front().time) {
+    if (const PendingPing* partner = nearestHorizontal(vertical_.front().time)) {
+      auto scan = fuse(*partner, vertical_.front());
+      if (!scan.points.empty()) scans.push_back(std::move(scan));
+    }
+    vertical_.pop_front();
+  }
+  const core::TimeNs oldest = vertical_.empty() ? newest : vertical_.front().time;
+  while (!horizontal_.empty() && horizontal_.front().time < oldest - window_) horizontal_.pop_front();
+  return scans;
+}
+
+const PendingPing* StereoPairer::nearestHorizontal(core::TimeNs time) const {
+  const PendingPing* nearest = nullptr;
+  core::TimeNs smallest = window_ + 1;
+  for (const PendingPing& ping : horizontal_) {
+    const core::TimeNs gap = std::abs(ping.time - time);
+    if (gap >= smallest) continue;
+    smallest = gap;
+    nearest = &ping;
+  }
+  return nearest;
+}
+
+StereoScan StereoPairer::fuse(const PendingPing& horizontal, const PendingPing& vertical) {
+  StereoScan scan;
+  scan.time = horizontal.time;
+  const auto h = horizontal.image.get(), v = vertical.image.get();
+  if (!h || !v) return scan;
+  const core::Isometry T_h_v =
+      horizontal.T_vehicle_sonar.inverse() * motion_(horizontal.time, vertical.time) * vertical.T_vehicle_sonar;
+  const auto result = stereo_.process(*h, *v, T_h_v);
+  ++pairCount_;
+  for (const auto& point : result.points)
+    scan.points.push_back(
+        {(horizontal.T_vehicle_sonar * point.p_h).cast<float>(), point.intensity, static_cast<float>(point.sigma_m())});
+  return scan;
+}
+
+}  // namespace s2s::mapper
