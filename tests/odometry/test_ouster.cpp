@@ -27,7 +27,8 @@ std::vector<OdometryResult> runOnCapture() {
   conversion.label = "LIDAR";
   tools::ouster::convertOusterCapture(capture, conversion);
 
-  const OdometryOptions options;
+  OdometryOptions options;
+  options.water.heavePrior = false;  // a car
   ScanMaker maker(options.scan);
   LidarInertialOdometry odometry(options);
   obs::RawlogReader reader(conversion.output);

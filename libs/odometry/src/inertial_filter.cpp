@@ -113,17 +113,24 @@ void InertialFilter::setPosePosterior(const core::Isometry& T_odom_imu, const co
   covariance_ = 0.5 * (covariance_ + covariance_.transpose()).eval();
 }
 
+double InertialFilter::heightAboveFloating(const core::Isometry& T_imu_vehicle) const {
+  const Vector3d p_vehicle = state_.position + state_.R_odom_imu * T_imu_vehicle.translation();
+  return -state_.gravity.normalized().dot(p_vehicle) - state_.floatingHeight;
+}
+
 double InertialFilter::measureHeave(const core::Isometry& T_imu_vehicle, double heave_m, double sigma_m) {
   const Vector3d up = -state_.gravity.normalized();
   const Vector3d lever = T_imu_vehicle.translation();
   ErrorVector h = ErrorVector::Zero();
   h.segment<3>(kPosition) = up;
   h.segment<3>(kRotation) = lever.cross(state_.R_odom_imu.transpose() * up);
+  // Far from the origin a tilt of the vertical is a height, and so the water's level tells the tilt.
+  const Vector3d p_vehicle = state_.position + state_.R_odom_imu * lever;
+  h.segment<3>(kGravity) = (up * up.dot(p_vehicle) - p_vehicle) / state_.gravity.norm();
   h[kFloating] = -1;
-  const double height = up.dot(state_.position + state_.R_odom_imu * lever) - state_.floatingHeight;
   const ErrorVector Ph = covariance_ * h;
   const double innovationVariance = h.dot(Ph) + sigma_m * sigma_m;
-  const double innovation = heave_m - height;
+  const double innovation = heave_m - heightAboveFloating(T_imu_vehicle);
   state_ = moved(state_, Ph * (innovation / innovationVariance));
   covariance_ -= Ph * Ph.transpose() / innovationVariance;
   return innovation / std::sqrt(innovationVariance);

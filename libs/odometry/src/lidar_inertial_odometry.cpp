@@ -13,6 +13,10 @@ namespace {
 constexpr std::size_t kLidarOnlyRehearsal = 4;
 /// Poses of the trajectory (10 ms apart) over which the present motion is taken.
 constexpr std::size_t kMotionSamples = 10;
+/// An IMU that starts later than this after the first scan is not waited for.
+constexpr double kLatestImu_s = 1.0;
+/// The rehearsal's speed this long after the first scan tells the speed at the start.
+constexpr double kEarly_s = 1.0;
 
 OdometryResult skipped(const Scan& scan, OdometryReason reason) {
   OdometryResult result;
@@ -111,13 +115,19 @@ bool LidarInertialOdometry::tryStart() {
       scansSuffice && core::secondsBetween(windowEnd, waiting_.back().endTime()) > options_.maxImuDelay_s;
   if (!isFinished_ && !lidarOnlyReady && !imuSuffices && !imuIsLate) return false;
 
-  const bool hasImu = mayUseImu && !imu_.empty() && imu_.samples().front().time < windowEnd;
+  const bool hasImu =
+      mayUseImu && !imu_.empty() && core::secondsBetween(first.endTime(), imu_.samples().front().time) < kLatestImu_s;
+  if (!hasImu) {
+    faults_.imuIgnored += imu_.samples().size();
+    imu_ = ImuBuffer();
+  }
   const core::Isometry T_vehicle_imu = hasImu ? imu_.samples().front().T_vehicle_imu : core::Isometry::Identity();
   const StartState rough =
       hasImu ? inertialStart(imu_, first.time, windowEnd, options_) : lidarOnlyStart(first.time, options_);
 
   ScanTracker rehearsal(options_, hasImu, T_vehicle_imu);
-  rehearsal.start(rough.state, rough.covariance);
+  rehearsal.start(rough);
+  std::optional<InertialFilter> early;
   std::size_t rehearsed = 0;
   core::TimeNs lastEnd = first.time;
   for (const Scan& scan : waiting_) {
@@ -126,10 +136,13 @@ bool LidarInertialOdometry::tryStart() {
     rehearsal.track(scan, imu_, {});
     lastEnd = scan.endTime();
     ++rehearsed;
+    if (!early && core::secondsBetween(first.time, lastEnd) >= kEarly_s) early = rehearsal.filter();
   }
-  const StartState start = rehearsed >= 3 ? refinedStart(rough, rehearsal.filter(), imu_, options_) : rough;
+  const StartState start =
+      rehearsed >= 3 ? refinedStart(rough, early.value_or(rehearsal.filter()), rehearsal.filter(), imu_, options_)
+                     : rough;
   tracker_ = std::make_unique<ScanTracker>(options_, hasImu, T_vehicle_imu);
-  tracker_->start(start.state, start.covariance);
+  tracker_->start(start);
   trajectory_.append(first.time, tracker_->T_odom_vehicle());
   return true;
 }

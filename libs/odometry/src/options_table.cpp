@@ -70,7 +70,8 @@ void addRegistration(OptionTable& table, RegistrationOptions& o) {
 
 void addWater(OptionTable& table, WaterOptions& o) {
   table.add("heave_prior", o.heavePrior, "the vessel floats, so its height stays near the waterline (needs an IMU)")
-      .add("heave_sigma_m", o.heaveSigma_m, "standard deviation of the vessel's height about the waterline", positive())
+      .add("heave_sigma_m", o.heaveSigma_m,
+           "most that the vessel's height may scatter about the waterline; how much it does is learnt", positive())
       .add("heave_time_s", o.heaveTime_s, "over which one heave resembles the next", positive())
       .add("level_walk_m_rts", o.levelWalk_m_rts, "random walk of the water's level (tide)", atLeast(0))
       .add("velocity_prior", o.velocityPrior, "the vessel goes ahead, slowly, and hardly sideways (needs an IMU)")

@@ -13,6 +13,9 @@ namespace {
 constexpr double kLeastExtent = 0.08;
 /// A plane's thickness may be at most this share of its smaller extent.
 constexpr double kMostAspect = 0.35;
+/// Thickness to be expected of a plane, and how many points' worth that knowledge is.
+constexpr double kPriorThickness_m = 0.02;
+constexpr double kPriorPoints = 6.0;
 /// A fit is renewed when the number of points has grown by this factor.
 constexpr double kRefitGrowth = 1.3;
 
@@ -115,8 +118,12 @@ void PlaneMap::fit(Voxel& voxel, double size_m) const {
   voxel.isPlane = thickness2 <= options_.maxThickness_m * options_.maxThickness_m &&
                   extent2 >= leastExtent_m * leastExtent_m && thickness2 <= kMostAspect * kMostAspect * extent2;
   voxel.normal = solver.eigenvectors().col(0).cast<float>();
-  voxel.offsetVariance = static_cast<float>(thickness2 / voxel.count);
-  voxel.tiltVariance = static_cast<float>(thickness2 / (voxel.count * extent2));
+  // Few points may lie on a plane by chance, which would make it seem better known than it can be.
+  const double free = std::max(0.0, voxel.count - 3.0);
+  const double believed2 =
+      (free * thickness2 + kPriorPoints * kPriorThickness_m * kPriorThickness_m) / (free + kPriorPoints);
+  voxel.offsetVariance = static_cast<float>(believed2 / voxel.count);
+  voxel.tiltVariance = static_cast<float>(believed2 / (voxel.count * extent2));
 }
 
 bool PlaneMap::match(const Eigen::Vector3d& point, PlaneMatch& out) const {

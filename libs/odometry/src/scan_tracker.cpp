@@ -31,6 +31,12 @@ constexpr double kRecent_s = 1.0;
 constexpr double kMisfitHeaves = 5.0;
 constexpr double kLostLevel_m = 1.0;
 
+/// Time over which the size of the heaves is learnt, how much larger it is taken, and the least share of what the
+/// options allow.
+constexpr double kHeaveMemory_s = 20.0;
+constexpr double kHeaveMargin = 1.5;
+constexpr double kLeastHeaveShare = 0.2;
+
 /// Ad(T) for (translation, rotation): T exp(d) = exp(Ad(T) d) T.
 Matrix6 adjoint(const Isometry& T) {
   Matrix6 A = Matrix6::Zero();
@@ -72,12 +78,14 @@ ScanTracker::ScanTracker(const OdometryOptions& options, bool hasImu, const Isom
       map_(options.map),
       seabed_(options.seabed.map) {}
 
-void ScanTracker::start(const NavState& state, const ErrorMatrix& covariance) {
-  filter_.reset(state, covariance);
+void ScanTracker::start(const StartState& start) {
+  filter_.reset(start.state, start.covariance);
+  const double heave_m = start.heaveSigma_m > 0 ? start.heaveSigma_m : options_.water.heaveSigma_m;
+  heaveVariance_m2_ = heave_m * heave_m;
   map_.clear();
   seabed_.clear();
   drift_.setZero();
-  recent_ = core::Trajectory({{state.time, T_odom_vehicle()}});
+  recent_ = core::Trajectory({{start.state.time, T_odom_vehicle()}});
   T_odom_vehicle_last_ = T_odom_vehicle();
   mapCentre_ = T_odom_vehicle_last_.translation();
 }
@@ -146,7 +154,11 @@ void ScanTracker::useHeavePrior(double sinceLast_s) {
   filter_.loosenFloatingHeight(water.levelWalk_m_rts * water.levelWalk_m_rts * sinceLast_s);
   // One heave lasts over several scans, which together must not count for more than one measurement.
   const double share = std::min(1.0, sinceLast_s / (2 * water.heaveTime_s));
-  const double misfit = filter_.measureHeave(T_imu_vehicle_, 0.0, water.heaveSigma_m / std::sqrt(share));
+  const double sigma_m = std::clamp(kHeaveMargin * std::sqrt(heaveVariance_m2_), kLeastHeaveShare * water.heaveSigma_m,
+                                    water.heaveSigma_m);
+  const double heave_m = filter_.heightAboveFloating(T_imu_vehicle_);
+  heaveVariance_m2_ += (heave_m * heave_m - heaveVariance_m2_) * std::min(1.0, sinceLast_s / kHeaveMemory_s);
+  const double misfit = filter_.measureHeave(T_imu_vehicle_, 0.0, sigma_m / std::sqrt(share));
   // Off for long by more than the heaves explain: the water itself has moved, so its level is unknown again.
   const double limit = water.giveUpSigma * std::sqrt(share);
   heaveMisfit_ += (misfit - heaveMisfit_) * share / kMisfitHeaves;

@@ -9,6 +9,7 @@
 #include "s2s/odometry/plane_map.h"
 #include "s2s/odometry/registration.h"
 #include "s2s/odometry/scan.h"
+#include "start_state.h"
 
 namespace s2s::odometry {
 
@@ -18,7 +19,7 @@ class ScanTracker {
   ScanTracker(const OdometryOptions& options, bool hasImu, const core::Isometry& T_vehicle_imu);
 
   /// State at the first scan's first point; the map is emptied.
-  void start(const NavState& state, const ErrorMatrix& covariance);
+  void start(const StartState& start);
 
   /// @param scan not empty, and ending after the filter's time
   /// @param acoustic scans up to the end of `scan`; those from before the last second are of no use any more
@@ -69,7 +70,8 @@ class ScanTracker {
   core::Isometry T_odom_vehicle_last_ = core::Isometry::Identity();
   Eigen::Vector3d mapCentre_ = Eigen::Vector3d::Zero();
   bool bridgedImu_ = false;
-  double heaveMisfit_ = 0;  // running mean of the normalised heave
+  double heaveMisfit_ = 0;       // running mean of the normalised heave
+  double heaveVariance_m2_ = 0;  // running mean of the squared heave
 };
 
 }  // namespace s2s::odometry

@@ -1,5 +1,7 @@
 #include "start_state.h"
 
+#include "s2s/odometry/heave_fit.h"
+
 namespace s2s::odometry {
 
 namespace {
@@ -23,35 +25,55 @@ constexpr double kGravitySizeSigma_mps2 = 0.02;
 constexpr double kRehearsalInflation = 4.0;
 
 struct WindowMeans {
-  Vector3d force = Vector3d::Zero();  // in the first sample's frame
-  Vector3d rate = Vector3d::Zero();
-  double forceSigma = 0, rateSigma = 0;
+  Vector3d force = Vector3d::Zero();     // in the first sample's frame
+  Vector3d gyroBias = Vector3d::Zero();  // zero if the vehicle moves
+  bool isStatic = false;
   core::Isometry T_vehicle_imu = core::Isometry::Identity();
 };
 
-WindowMeans meansOf(const ImuBuffer& imu, core::TimeNs start, core::TimeNs end) {
-  WindowMeans means;
-  Matrix3d R_start_imu = Matrix3d::Identity();
-  Vector3d rateSquares = Vector3d::Zero(), force = Vector3d::Zero(), forceSquares = Vector3d::Zero();
-  double count = 0;
-  core::TimeNs last = 0;
-  for (const auto& sample : imu.samples()) {
-    const bool isOnly = count == 0 && &sample == &imu.samples().back();
-    if ((sample.time < start || sample.time > end) && !isOnly) continue;
-    if (count > 0) R_start_imu *= core::expSo3(sample.angularRate_radps * core::secondsBetween(last, sample.time));
-    last = sample.time;
-    means.force += R_start_imu * sample.specificForce_mps2;
-    means.rate += sample.angularRate_radps;
-    rateSquares += sample.angularRate_radps.cwiseAbs2();
-    force += sample.specificForce_mps2;
-    forceSquares += sample.specificForce_mps2.cwiseAbs2();
-    means.T_vehicle_imu = sample.T_vehicle_imu;
-    ++count;
+/// Samples of the window; if there is none, the last one.
+std::vector<ImuSample> samplesWithin(const ImuBuffer& imu, core::TimeNs start, core::TimeNs end) {
+  std::vector<ImuSample> samples;
+  for (const auto& sample : imu.samples())
+    if (sample.time >= start && sample.time <= end) samples.push_back(sample);
+  if (samples.empty()) samples.push_back(imu.samples().back());
+  return samples;
+}
+
+struct Spread {
+  Vector3d mean = Vector3d::Zero();
+  double sigma = 0;  // of the worst axis
+};
+
+Spread spreadOf(const std::vector<ImuSample>& samples, Vector3d ImuSample::*reading) {
+  Spread spread;
+  Vector3d squares = Vector3d::Zero();
+  for (const auto& sample : samples) {
+    spread.mean += sample.*reading;
+    squares += (sample.*reading).cwiseAbs2();
   }
-  means.force /= count;
-  means.rate /= count;
-  means.rateSigma = std::sqrt(std::max(0.0, (rateSquares / count - means.rate.cwiseAbs2()).maxCoeff()));
-  means.forceSigma = std::sqrt(std::max(0.0, (forceSquares / count - (force / count).cwiseAbs2()).maxCoeff()));
+  const auto count = static_cast<double>(samples.size());
+  spread.mean /= count;
+  spread.sigma = std::sqrt(std::max(0.0, (squares / count - spread.mean.cwiseAbs2()).maxCoeff()));
+  return spread;
+}
+
+WindowMeans meansOf(const ImuBuffer& imu, core::TimeNs start, core::TimeNs end) {
+  const auto samples = samplesWithin(imu, start, end);
+  const Spread rate = spreadOf(samples, &ImuSample::angularRate_radps);
+  const Spread force = spreadOf(samples, &ImuSample::specificForce_mps2);
+  WindowMeans means;
+  means.isStatic =
+      rate.sigma < kStillGyro_radps && force.sigma < kStillAccel_mps2 && rate.mean.norm() < kMostBias_radps;
+  if (means.isStatic) means.gyroBias = rate.mean;
+  means.T_vehicle_imu = samples.back().T_vehicle_imu;
+  Matrix3d R_start_imu = Matrix3d::Identity();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (i > 0)
+      R_start_imu *= core::expSo3((samples[i].angularRate_radps - means.gyroBias) *
+                                  core::secondsBetween(samples[i - 1].time, samples[i].time));
+    means.force += R_start_imu * samples[i].specificForce_mps2 / static_cast<double>(samples.size());
+  }
   return means;
 }
 
@@ -63,6 +85,32 @@ void setGravity(StartState& start, double size, double tiltAccel) {
   start.state.gravity = Vector3d(0, 0, -size);
   setSigma(start, kGravity, tiltAccel);
   start.covariance(kGravity + 2, kGravity + 2) = kGravitySizeSigma_mps2 * kGravitySizeSigma_mps2;
+}
+
+/// Vertical speed, floating height and vertical error of acceleration as the heave tells them.
+void useHeave(const core::Isometry& T_imu_vehicle, const ImuBuffer& imu, core::TimeNs end,
+              const OdometryOptions& options, StartState& start) {
+  if (!options.water.heavePrior) return;
+  const bool isCovered = core::secondsBetween(start.state.time, imu.samples().front().time) <= options.imu.maxGap_s;
+  if (!isCovered) return;
+  const HeaveFit fit = fitHeave(start.state, T_imu_vehicle, imu, std::min(end, imu.lastTime()), options);
+  const Vector3d up = -start.state.gravity.normalized();
+  start.state.velocity += (fit.speed_mps - up.dot(start.state.velocity)) * up;
+  start.state.floatingHeight = fit.floatingHeight_m;
+  // What the accelerometer reads too low along the vertical is taken for its bias.
+  const Vector3d up_imu = start.state.R_odom_imu.transpose() * up;
+  start.state.accelBias -= fit.acceleration_mps2 * up_imu;
+  // The variance along an axis becomes the given one if that is less, as by a measurement along it.
+  const auto setAlong = [&](int at, const Vector3d& axis, double variance) {
+    auto block = start.covariance.block<3, 3>(at, at);
+    const Vector3d column = block * axis;
+    const double before = axis.dot(column);
+    if (variance < before) block -= (1 - variance / before) / before * column * column.transpose();
+  };
+  setAlong(kVelocity, up, fit.covariance(1, 1));
+  setAlong(kAccelBias, up_imu, fit.covariance(2, 2));
+  start.covariance(kFloating, kFloating) = fit.covariance(0, 0);
+  start.heaveSigma_m = fit.heaveSigma_m;
 }
 
 }  // namespace
@@ -83,8 +131,7 @@ StartState inertialStart(const ImuBuffer& imu, core::TimeNs startTime, core::Tim
                          const OdometryOptions& options) {
   const WindowMeans means = meansOf(imu, startTime, end);
   StartState start;
-  start.isStatic =
-      means.rateSigma < kStillGyro_radps && means.forceSigma < kStillAccel_mps2 && means.rate.norm() < kMostBias_radps;
+  start.isStatic = means.isStatic;
   start.state.time = startTime;
   const Matrix3d R_odom_vehicle = levelRotation(means.T_vehicle_imu.linear() * means.force);
   start.state.R_odom_imu = R_odom_vehicle * means.T_vehicle_imu.linear();
@@ -93,7 +140,7 @@ StartState inertialStart(const ImuBuffer& imu, core::TimeNs startTime, core::Tim
   setSigma(start, kRotation, kPoseSigma);
   setSigma(start, kAccelBias, options.imu.accelBiasSigma_mps2);
   if (start.isStatic) {
-    start.state.gyroBias = means.rate;
+    start.state.gyroBias = means.gyroBias;
     setSigma(start, kGyroBias, 0.05 * options.imu.gyroBiasSigma_radps);
     setSigma(start, kVelocity, kStillSpeedSigma_mps);
   } else {
@@ -102,6 +149,7 @@ StartState inertialStart(const ImuBuffer& imu, core::TimeNs startTime, core::Tim
   }
   start.covariance(kFloating, kFloating) = options.water.heaveSigma_m * options.water.heaveSigma_m;
   setGravity(start, options.imu.gravity_mps2, start.isStatic ? kTiltAccelStill_mps2 : kTiltAccelMoving_mps2);
+  useHeave(means.T_vehicle_imu.inverse(), imu, end, options, start);
   return start;
 }
 
@@ -115,9 +163,10 @@ StartState lidarOnlyStart(core::TimeNs startTime, const OdometryOptions& options
   return start;
 }
 
-StartState refinedStart(const StartState& rough, const InertialFilter& rehearsed, const ImuBuffer& imu,
-                        const OdometryOptions& options) {
+StartState refinedStart(const StartState& rough, const InertialFilter& early, const InertialFilter& rehearsed,
+                        const ImuBuffer& imu, const OdometryOptions& options) {
   StartState start = rough;
+  start.covariance = rough.covariance.diagonal().asDiagonal();  // its blocks are about to change
   const NavState& end = rehearsed.state();
   start.state.gyroBias = end.gyroBias;
   if (!rehearsed.hasImu()) {
@@ -137,18 +186,22 @@ StartState refinedStart(const StartState& rough, const InertialFilter& rehearsed
     const Vector3d widened = kRehearsalInflation * rehearsed.covariance().diagonal().segment<3>(at);
     start.covariance.diagonal().segment<3>(at) = widened.cwiseMin(rough.covariance.diagonal().segment<3>(at));
   }
-  if (rough.isStatic) return start;
-  // The speed at the start is the rehearsal's last one less what the IMU felt since.
+  if (rough.isStatic) {
+    useHeave(T_imu_vehicle, imu, end.time, options, start);
+    return start;
+  }
+  // The speed at the start is the rehearsal's early one less what the IMU felt since.
   InertialFilter fromRest(options.imu, options.motion, true);
   NavState rest = start.state;
   rest.velocity.setZero();
   fromRest.reset(rest, ErrorMatrix::Zero());
-  fromRest.propagate(imu.steps(rest.time, end.time, options.imu.maxGap_s));
-  start.state.velocity = R_new_old * end.velocity - fromRest.state().velocity;
+  fromRest.propagate(imu.steps(rest.time, early.state().time, options.imu.maxGap_s));
+  start.state.velocity = R_new_old * early.state().velocity - fromRest.state().velocity;
   setSigma(start, kVelocity, kRefinedSpeedSigma_mps);
   // Where nothing in sight tells the speed in some direction, the rehearsal has not learnt it either.
   start.covariance.block<3, 3>(kVelocity, kVelocity) +=
-      R_new_old * rehearsed.covariance().block<3, 3>(kVelocity, kVelocity) * R_new_old.transpose();
+      R_new_old * early.covariance().block<3, 3>(kVelocity, kVelocity) * R_new_old.transpose();
+  useHeave(T_imu_vehicle, imu, end.time, options, start);
   return start;
 }
 

@@ -10,7 +10,8 @@ namespace s2s::odometry {
 struct StartState {
   NavState state;
   ErrorMatrix covariance = ErrorMatrix::Zero();
-  bool isStatic = false;  ///< the IMU felt no motion
+  double heaveSigma_m = 0;  ///< of the heave that the IMU felt; 0: not known
+  bool isStatic = false;    ///< the IMU felt no motion
 };
 
 /// First belief with an IMU: up is the mean specific force from `start` to `end`, rotated back to `start` by the gyro.
@@ -20,9 +21,10 @@ StartState inertialStart(const ImuBuffer& imu, core::TimeNs start, core::TimeNs 
 /// First belief without IMU.
 StartState lidarOnlyStart(core::TimeNs start, const OdometryOptions& options);
 
-/// Improves a first belief by what the filter knew after it had run once over the first scans: gravity, biases, speed.
-StartState refinedStart(const StartState& rough, const InertialFilter& rehearsed, const ImuBuffer& imu,
-                        const OdometryOptions& options);
+/// Improves a first belief by what the filter knew when it had run once over the first scans: gravity and biases from
+/// its end, the speed from early on, where less of the way back to the start has to be reckoned.
+StartState refinedStart(const StartState& rough, const InertialFilter& early, const InertialFilter& rehearsed,
+                        const ImuBuffer& imu, const OdometryOptions& options);
 
 /// Rotation whose z axis is `up_body` seen from the body, and whose x axis is the body's heading.
 Eigen::Matrix3d levelRotation(const Eigen::Vector3d& up_body);

@@ -43,6 +43,9 @@ class InertialFilter {
   /// filter's own pose as prior; the rest of the state follows.
   void setPosePosterior(const core::Isometry& T_odom_imu, const core::Matrix6& covariance);
 
+  /// How high the vehicle's origin is above its floating height, against gravity [m].
+  double heightAboveFloating(const core::Isometry& T_imu_vehicle) const;
+
   /// Takes a measurement of how high the vehicle's origin is above its floating height, against gravity.
   /// @return the innovation over its expected standard deviation
   double measureHeave(const core::Isometry& T_imu_vehicle, double heave_m, double sigma_m);

@@ -71,7 +71,8 @@ struct WaterOptions {
   /// Soft knowledge that the vehicle stays near one height, which may itself change slowly. Between vertical quays
   /// nothing that a LiDAR sees tells the height, and an accelerometer alone loses it within seconds.
   bool heavePrior = true;
-  double heaveSigma_m = 0.1;        ///< standard deviation of the vehicle's origin about that height
+  /// Most that the standard deviation of the vehicle's origin about that height may be; the heave itself is learnt.
+  double heaveSigma_m = 0.1;
   double heaveTime_s = 1.0;         ///< over which one heave is correlated with the next
   double levelWalk_m_rts = 2.0e-3;  ///< random walk of that height: tide, load
   /// Soft knowledge that a displacement hull goes ahead, slowly, and hardly sideways: what keeps the speed bounded over
@@ -108,8 +109,10 @@ enum class ImuUse {
 /// All of the odometry.
 struct OdometryOptions {
   ImuUse imuUse = ImuUse::automatic;
-  double initialisation_s = 1.0;  ///< this much of the record is looked at before the first pose
-  double maxImuDelay_s = 0.5;     ///< a scan is not held back longer than this for missing IMU samples
+  /// This much of the record is looked at before the first pose: some of the short waves of sheltered waters, so that
+  /// the mean of their accelerations is small.
+  double initialisation_s = 6.0;
+  double maxImuDelay_s = 0.5;  ///< a scan is not held back longer than this for missing IMU samples
   ScanOptions scan;
   ImuOptions imu;
   MotionOptions motion;
