@@ -17,6 +17,8 @@ NavState someState() {
   state.accelBias = {0.1, 0.05, -0.08};
   state.gravity = {0.1, -0.05, -9.8};
   state.floatingHeight = 0.2;
+  state.timeOffset_s = 0.01;
+  state.R_imu_readings = core::expSo3({0.02, -0.03, 0.01});
   return state;
 }
 
@@ -26,6 +28,8 @@ MotionStep someStep() {
   step.duration_s = 0.05;
   step.angularRate_radps = {0.4, -1.1, 0.7};
   step.specificForce_mps2 = {1.0, 2.0, 9.0};
+  step.angularRateSlope_radps2 = {2.0, 0.5, -1.0};
+  step.specificForceSlope_mps3 = {3.0, -2.0, 1.0};
   return step;
 }
 

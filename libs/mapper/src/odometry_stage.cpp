@@ -111,6 +111,7 @@ void OdometryStage::handle(const odometry::OdometryResult& result) {
   if (result.status != odometry::OdometryStatus::skipped) {
     update.path = result.path;
     motion_.add(result);
+    imuCalibration_ = result.imu;
     sweepPoses_.append(result.time, result.T_odom_vehicle);
     water_.add(result.time, (result.T_odom_vehicle * Eigen::Vector3d(0, 0, options_.mapper.waterline_m)).z());
     if (keyframePolicy_.accept(result.T_odom_vehicle)) update.keyframe = makeKeyframe(result, *sweep);
@@ -166,6 +167,7 @@ odometry::DeskewedCloud OdometryStage::deskewed(const mrpt::obs::CObservation& s
 }
 
 void OdometryStage::reportFaults() {
+  for (const auto& contradiction : odometry::contradictions(imuCalibration_)) faults_.add(contradiction);
   const auto& f = odometry_.faults();
   faults_.add("IMU samples refused (not finite, or time not increasing)", {}, f.imuRefused);
   faults_.add("sweeps that had to bridge missing IMU samples", {}, f.imuGaps);

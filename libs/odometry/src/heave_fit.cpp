@@ -40,7 +40,7 @@ std::vector<Height> heightsFromRest(const NavState& start, const core::Isometry&
   InertialFilter filter(options.imu, options.motion, true);
   filter.reset(rest, ErrorMatrix::Zero());
   std::vector<NavState> path{rest};
-  filter.propagate(imu.steps(start.time, end, options.imu.maxGap_s), &path);
+  filter.propagate(imu.steps(start.time, end, options.imu.maxGap_s, start.timeOffset_s), &path);
   const Vector3d up = -start.gravity.normalized();
   std::vector<Height> heights;
   heights.reserve(path.size());

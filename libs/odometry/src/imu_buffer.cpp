@@ -19,6 +19,9 @@ MotionStep measuredStep(const ImuSample& before, const ImuSample& after, core::T
   step.duration_s = core::secondsBetween(from, to);
   step.angularRate_radps = (1 - u) * before.angularRate_radps + u * after.angularRate_radps;
   step.specificForce_mps2 = (1 - u) * before.specificForce_mps2 + u * after.specificForce_mps2;
+  const double between_s = core::secondsBetween(before.time, after.time);
+  step.angularRateSlope_radps2 = (after.angularRate_radps - before.angularRate_radps) / between_s;
+  step.specificForceSlope_mps3 = (after.specificForce_mps2 - before.specificForce_mps2) / between_s;
   return step;
 }
 
@@ -45,8 +48,12 @@ bool ImuBuffer::add(const ImuSample& sample) {
   return true;
 }
 
-std::vector<MotionStep> ImuBuffer::steps(core::TimeNs from, core::TimeNs to, double maxGap_s) const {
+std::vector<MotionStep> ImuBuffer::steps(core::TimeNs from, core::TimeNs to, double maxGap_s,
+                                         double timeOffset_s) const {
   std::vector<MotionStep> steps;
+  const core::TimeNs offset = core::durationNs(timeOffset_s);
+  from += offset;
+  to += offset;
   while (from < to) {
     // The pair of samples around the moment after `from`.
     const auto after = std::lower_bound(samples_.begin(), samples_.end(), from + 1, earlier);
@@ -60,6 +67,10 @@ std::vector<MotionStep> ImuBuffer::steps(core::TimeNs from, core::TimeNs to, dou
       bridge(from, end, hasBefore ? std::prev(after)->angularRate_radps : Eigen::Vector3d(Eigen::Vector3d::Zero()),
              steps);
     from = end;
+  }
+  for (auto& step : steps) {
+    step.end -= offset;
+    step.timeOffset_s = timeOffset_s;
   }
   return steps;
 }

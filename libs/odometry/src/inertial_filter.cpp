@@ -12,6 +12,10 @@ using Eigen::Vector3d;
 /// Share of the angular acceleration's density that stands for the unknown turn rate while an IMU is silent [s^0.5].
 constexpr double kSilentRateShare = 0.1;
 
+/// Clocks and mountings hardly change; these random walks keep what the model leaves out from being believed for ever.
+constexpr double kTimeOffsetWalk_s_rts = 2e-5;
+constexpr double kMountingWalk_rad_rts = 2e-5;
+
 double squared(double x) { return x * x; }
 
 /// Noise that enters during one step, white over the step.
@@ -31,6 +35,8 @@ ErrorMatrix stepNoise(const MotionStep& step, const ImuOptions& imu, const Motio
     set(kRotation, squared(rate) * dt);
     set(kGyroBias, squared(imu.gyroBiasWalk_radps2_rthz) * dt);
     set(kAccelBias, squared(imu.accelBiasWalk_mps3_rthz) * dt);
+    if (imu.estimateTimeOffset) Q(kTimeOffset, kTimeOffset) = squared(kTimeOffsetWalk_s_rts) * dt;
+    if (imu.estimateMounting) set(kMounting, squared(kMountingWalk_rad_rts) * dt);
     return Q;
   }
   const double rateVariance = squared(motion.angularAcceleration_radps2_rthz) * dt;
@@ -46,10 +52,15 @@ ErrorMatrix stepNoise(const MotionStep& step, const ImuOptions& imu, const Motio
 StepModel propagated(const NavState& state, const MotionStep& step, const ImuOptions& imu, const MotionOptions& motion,
                      bool hasImu) {
   const double dt = step.duration_s;
-  const Vector3d turn = (step.angularRate_radps - state.gyroBias) * dt;
+  // Readings at the moment that the present time offset says, turned into the frame of the mounting.
+  const double later_s = state.timeOffset_s - step.timeOffset_s;
+  const Vector3d rateReading = state.R_imu_readings * (step.angularRate_radps + later_s * step.angularRateSlope_radps2);
+  const Vector3d forceReading =
+      state.R_imu_readings * (step.specificForce_mps2 + later_s * step.specificForceSlope_mps3);
+  const Vector3d turn = (rateReading - state.gyroBias) * dt;
   const Matrix3d halfTurn = core::expSo3(0.5 * turn);
   const Matrix3d R_middle = state.R_odom_imu * halfTurn;
-  const Vector3d force = step.specificForce_mps2 - state.accelBias;
+  const Vector3d force = forceReading - state.accelBias;
   const Vector3d acceleration =
       step.isMeasured ? Vector3d(R_middle * force + state.gravity) : Vector3d(Vector3d::Zero());
 
@@ -78,6 +89,11 @@ StepModel propagated(const NavState& state, const MotionStep& step, const ImuOpt
     setBlock(kGravity, Matrix3d::Identity());
     F.block<3, 3>(kPosition, kVelocity) = dt * Matrix3d::Identity();
   }
+  // Time offset and mounting change the readings, as the biases do with the opposite sign.
+  Eigen::Matrix<double, 3, 4> rateBy, forceBy;
+  rateBy << state.R_imu_readings * step.angularRateSlope_radps2, -core::skew(rateReading);
+  forceBy << state.R_imu_readings * step.specificForceSlope_mps3, -core::skew(forceReading);
+  F.block<9, 4>(0, kTimeOffset) = -F.block<9, 3>(0, kGyroBias) * rateBy - F.block<9, 3>(0, kAccelBias) * forceBy;
   out.Q = stepNoise(step, imu, motion, hasImu);
   return out;
 }

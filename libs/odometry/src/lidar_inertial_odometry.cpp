@@ -17,6 +17,8 @@ constexpr std::size_t kMotionSamples = 10;
 constexpr double kLatestImu_s = 1.0;
 /// The rehearsal's speed this long after the first scan tells the speed at the start.
 constexpr double kEarly_s = 1.0;
+/// Samples are kept this much longer, as the time offset may change.
+constexpr double kImuMemory_s = 0.5;
 
 OdometryResult skipped(const Scan& scan, OdometryReason reason) {
   OdometryResult result;
@@ -85,7 +87,8 @@ std::optional<OdometryResult> LidarInertialOdometry::next() {
 
 bool LidarInertialOdometry::isReady(const Scan& scan) const {
   if (isFinished_ || !usesImu()) return true;
-  if (!imu_.empty() && imu_.lastTime() >= scan.endTime()) return true;
+  const double offset_s = std::max(0.0, tracker_->filter().state().timeOffset_s);
+  if (!imu_.empty() && imu_.lastTime() >= scan.endTime() + core::durationNs(offset_s)) return true;
   return core::secondsBetween(scan.endTime(), waiting_.back().endTime()) > options_.maxImuDelay_s;
 }
 
@@ -100,7 +103,7 @@ OdometryResult LidarInertialOdometry::process(const Scan& scan) {
   if (tracker_->bridgedImu()) ++faults_.imuGaps;
   if (result.status == OdometryStatus::deadReckoned) ++faults_.scansDeadReckoned;
   for (const auto& pose : result.path) trajectory_.append(pose.time, pose.T);
-  if (!imu_.empty()) imu_.forgetBefore(scan.endTime());
+  if (!imu_.empty()) imu_.forgetBefore(scan.endTime() - core::durationNs(kImuMemory_s));
   return result;
 }
 

@@ -11,6 +11,8 @@ NavState moved(const NavState& state, const ErrorVector& error) {
   out.accelBias += error.segment<3>(kAccelBias);
   out.gravity += error.segment<3>(kGravity);
   out.floatingHeight += error[kFloating];
+  out.timeOffset_s += error[kTimeOffset];
+  out.R_imu_readings = core::expSo3(error.segment<3>(kMounting)) * state.R_imu_readings;
   return out;
 }
 
@@ -23,6 +25,8 @@ ErrorVector errorBetween(const NavState& from, const NavState& to) {
   error.segment<3>(kAccelBias) = to.accelBias - from.accelBias;
   error.segment<3>(kGravity) = to.gravity - from.gravity;
   error[kFloating] = to.floatingHeight - from.floatingHeight;
+  error[kTimeOffset] = to.timeOffset_s - from.timeOffset_s;
+  error.segment<3>(kMounting) = core::logSo3(to.R_imu_readings * from.R_imu_readings.transpose());
   return error;
 }
 

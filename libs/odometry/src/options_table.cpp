@@ -27,6 +27,10 @@ void addImu(OptionTable& table, ImuOptions& o) {
       .add("gyro_bias_sigma_radps", o.gyroBiasSigma_radps, "gyro bias to be expected at switch-on", positive())
       .add("accel_bias_sigma_mps2", o.accelBiasSigma_mps2, "accelerometer bias to be expected", positive())
       .add("gravity_mps2", o.gravity_mps2, "local gravity", {9.7, 9.9})
+      .add("estimate_time_offset", o.estimateTimeOffset, "find the offset between the clocks of IMU and LiDAR")
+      .add("time_offset_sigma_s", o.timeOffsetSigma_s, "offset to be expected", positive())
+      .add("estimate_mounting", o.estimateMounting, "find how the IMU is turned against what its mounting says")
+      .addDegrees("mounting_sigma_deg", o.mountingSigma_rad, "such a turn to be expected", positive())
       .add("imu_max_gap_s", o.maxGap_s, "longer silence of the IMU is bridged with constant velocity", positive());
 }
 

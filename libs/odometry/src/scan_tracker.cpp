@@ -97,7 +97,8 @@ OdometryResult ScanTracker::track(const Scan& scan, const ImuBuffer& imu, const 
   result.ownHullCount = scan.ownHullCount;
   result.outOfRangeCount = scan.outOfRangeCount;
 
-  const auto steps = imu.steps(filter_.state().time, scan.endTime(), options_.imu.maxGap_s);
+  const auto steps =
+      imu.steps(filter_.state().time, scan.endTime(), options_.imu.maxGap_s, filter_.state().timeOffset_s);
   bridgedImu_ = filter_.hasImu() &&
                 std::any_of(steps.begin(), steps.end(), [](const MotionStep& step) { return !step.isMeasured; });
   std::vector<NavState> path{filter_.state()};
@@ -336,8 +337,12 @@ void ScanTracker::describe(const Points& points, const Vector3d& angularRate_rad
     result.gravitySigma_rad = std::sqrt((across * cov * across).trace() / 2.0) / state.gravity.norm();
     result.gyroBias_radps = state.gyroBias;
     result.accelBias_mps2 = state.accelBias;
+    result.imu.timeOffset_s = state.timeOffset_s;
+    result.imu.timeOffsetSigma_s = std::sqrt(filter_.covariance()(kTimeOffset, kTimeOffset));
+    result.imu.turn_rad = core::logSo3(state.R_imu_readings);
+    result.imu.turnSigma_rad = filter_.covariance().diagonal().segment<3>(kMounting).cwiseSqrt();
   }
-  const Vector3d rate = angularRate_radps - state.gyroBias;
+  const Vector3d rate = state.R_imu_readings * angularRate_radps - state.gyroBias;
   result.velocity_odom = state.velocity + state.R_odom_imu * rate.cross(T_imu_vehicle_.translation());
 
   const Matrix6 A = vehicleByImuError();

@@ -139,6 +139,9 @@ StartState inertialStart(const ImuBuffer& imu, core::TimeNs startTime, core::Tim
   setSigma(start, kPosition, kPoseSigma);
   setSigma(start, kRotation, kPoseSigma);
   setSigma(start, kAccelBias, options.imu.accelBiasSigma_mps2);
+  if (options.imu.estimateMounting) setSigma(start, kMounting, options.imu.mountingSigma_rad);
+  if (options.imu.estimateTimeOffset)
+    start.covariance(kTimeOffset, kTimeOffset) = options.imu.timeOffsetSigma_s * options.imu.timeOffsetSigma_s;
   if (start.isStatic) {
     start.state.gyroBias = means.gyroBias;
     setSigma(start, kGyroBias, 0.05 * options.imu.gyroBiasSigma_radps);
@@ -174,6 +177,8 @@ StartState refinedStart(const StartState& rough, const InertialFilter& early, co
     return start;
   }
   start.state.accelBias = end.accelBias;
+  start.state.timeOffset_s = end.timeOffset_s;
+  start.state.R_imu_readings = end.R_imu_readings;
   // The first vehicle frame, levelled anew: the correction turns the frame, not the vehicle.
   const core::Isometry T_imu_vehicle = imu.samples().front().T_vehicle_imu.inverse();
   const Matrix3d R_old_vehicle = rough.state.R_odom_imu * T_imu_vehicle.linear();
@@ -182,10 +187,12 @@ StartState refinedStart(const StartState& rough, const InertialFilter& early, co
   start.state.R_odom_imu = R_new_old * rough.state.R_odom_imu;
   start.state.position = R_new_old * rough.state.position;
   setGravity(start, options.imu.gravity_mps2, 0);
-  for (const int at : {kGyroBias, kAccelBias, kGravity}) {
+  for (const int at : {kGyroBias, kAccelBias, kGravity, kMounting}) {
     const Vector3d widened = kRehearsalInflation * rehearsed.covariance().diagonal().segment<3>(at);
     start.covariance.diagonal().segment<3>(at) = widened.cwiseMin(rough.covariance.diagonal().segment<3>(at));
   }
+  double& offsetVariance = start.covariance(kTimeOffset, kTimeOffset);
+  offsetVariance = std::min(offsetVariance, kRehearsalInflation * rehearsed.covariance()(kTimeOffset, kTimeOffset));
   if (rough.isStatic) {
     useHeave(T_imu_vehicle, imu, end.time, options, start);
     return start;
@@ -195,7 +202,7 @@ StartState refinedStart(const StartState& rough, const InertialFilter& early, co
   NavState rest = start.state;
   rest.velocity.setZero();
   fromRest.reset(rest, ErrorMatrix::Zero());
-  fromRest.propagate(imu.steps(rest.time, early.state().time, options.imu.maxGap_s));
+  fromRest.propagate(imu.steps(rest.time, early.state().time, options.imu.maxGap_s, rest.timeOffset_s));
   start.state.velocity = R_new_old * early.state().velocity - fromRest.state().velocity;
   setSigma(start, kVelocity, kRefinedSpeedSigma_mps);
   // Where nothing in sight tells the speed in some direction, the rehearsal has not learnt it either.

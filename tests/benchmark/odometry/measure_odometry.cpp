@@ -125,6 +125,8 @@ int measure(const Request& request) {
   feed(request, survey, contestants);
   const auto truth = products::readTum(request.folder + "/truth/trajectory.tum");
   for (const auto& contestant : contestants) printRow(*contestant, truth);
+  for (const auto& found : odometry::contradictions(contestants.front()->results().back().imu))
+    std::printf("warning: %s\n", found.c_str());
   if (!request.csv.empty()) writeErrors(request.csv, *contestants.front(), truth);
   return apps::kSuccess;
 }

@@ -78,6 +78,7 @@ class OdometryStage {
   std::deque<graph::GnssFix> waitingFixes_;
   core::Trajectory sweepPoses_;
   WaterLevel water_;
+  odometry::ImuCalibration imuCalibration_;  // as found so far
   std::uint64_t keyframeCount_ = 0, sweepCount_ = 0;
 };
 

@@ -17,6 +17,9 @@ struct NavState {
   Eigen::Vector3d accelBias = Eigen::Vector3d::Zero();  ///< [m/s^2], in imu
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();    ///< [m/s^2], in odom; points down
   double floatingHeight = 0;  ///< [m] height in odom at which the vehicle's origin floats on calm water
+  double timeOffset_s = 0;    ///< time stamp of the IMU less that of the LiDAR for the same moment
+  /// Takes the IMU's readings to the frame in which its mounting says they are; that frame is "imu" above.
+  Eigen::Matrix3d R_imu_readings = Eigen::Matrix3d::Identity();
 
   core::Isometry T_odom_imu() const {
     core::Isometry T = core::Isometry::Identity();
@@ -26,10 +29,11 @@ struct NavState {
   }
 };
 
-/// Error of a state: all parts add, but the rotation vector multiplies from the right.
-constexpr int kErrorSize = 19;
+/// Error of a state: all parts add, but the attitude's rotation vector multiplies from the right and that of the
+/// mounting from the left.
+constexpr int kErrorSize = 23;
 constexpr int kPosition = 0, kRotation = 3, kVelocity = 6, kGyroBias = 9, kAccelBias = 12, kGravity = 15,
-              kFloating = 18;
+              kFloating = 18, kTimeOffset = 19, kMounting = 20;
 using ErrorVector = Eigen::Matrix<double, kErrorSize, 1>;
 using ErrorMatrix = Eigen::Matrix<double, kErrorSize, kErrorSize>;
 

@@ -7,6 +7,7 @@
 #include "s2s/core/time.h"
 #include "s2s/core/trajectory.h"
 #include "s2s/core/transform.h"
+#include "s2s/odometry/imu_calibration.h"
 
 namespace s2s::odometry {
 
@@ -51,6 +52,7 @@ struct OdometryResult {
   Eigen::Vector3d velocity_odom = Eigen::Vector3d::Zero();   ///< of the vehicle's origin [m/s]
   Eigen::Vector3d gyroBias_radps = Eigen::Vector3d::Zero();  ///< in the IMU's frame
   Eigen::Vector3d accelBias_mps2 = Eigen::Vector3d::Zero();
+  ImuCalibration imu;  ///< zero without IMU
 
   /// Motions that the scan did not see, as right perturbations of the vehicle's pose that move the scan's points by
   /// about 1 m.
