@@ -347,6 +347,9 @@ void ScanTracker::describe(const Points& points, const Vector3d& angularRate_rad
 
   const Matrix6 A = vehicleByImuError();
   result.covariance_registration = A * filter_.poseCovariance() * A.transpose();
+  // The first scan makes the map. Its points were measured half a sweep earlier on average, so they are off by half of
+  // what the motion up to its end may be off by.
+  if (result.status == OdometryStatus::firstScan) result.covariance_registration *= 0.25;
   accountDrift(points, result);
   result.points_vehicle.reserve(points.registered.size());
   for (const auto i : points.registered) result.points_vehicle.push_back(points.vehicle[i]);

@@ -17,7 +17,7 @@ constexpr double kMostBias_radps = 0.03;
 
 constexpr double kPoseSigma = 1e-4;  // the first pose defines the frame [m, rad]
 constexpr double kStillSpeedSigma_mps = 0.02;
-constexpr double kRefinedSpeedSigma_mps = 0.2;
+constexpr double kRefinedSpeedSigma_mps = 0.03;
 constexpr double kTiltAccelStill_mps2 = 0.03;  // horizontal acceleration that a mean over the window may hold
 constexpr double kTiltAccelMoving_mps2 = 0.5;
 constexpr double kGravitySizeSigma_mps2 = 0.02;
@@ -204,7 +204,14 @@ StartState refinedStart(const StartState& rough, const InertialFilter& early, co
   fromRest.reset(rest, ErrorMatrix::Zero());
   fromRest.propagate(imu.steps(rest.time, early.state().time, options.imu.maxGap_s, rest.timeOffset_s));
   start.state.velocity = R_new_old * early.state().velocity - fromRest.state().velocity;
+  // On the way back to the start, what gravity and the accelerometer's bias leave open together grows to a speed.
+  Eigen::Matrix<double, 3, kErrorSize> open = Eigen::Matrix<double, 3, kErrorSize>::Zero();
+  open.middleCols<3>(kGravity).setIdentity();
+  open.middleCols<3>(kAccelBias) = -end.R_odom_imu;
+  const double back_s = core::secondsBetween(rest.time, early.state().time);
   setSigma(start, kVelocity, kRefinedSpeedSigma_mps);
+  start.covariance.block<3, 3>(kVelocity, kVelocity) +=
+      back_s * back_s * R_new_old * (open * rehearsed.covariance() * open.transpose()) * R_new_old.transpose();
   // Where nothing in sight tells the speed in some direction, the rehearsal has not learnt it either.
   start.covariance.block<3, 3>(kVelocity, kVelocity) +=
       R_new_old * early.covariance().block<3, 3>(kVelocity, kVelocity) * R_new_old.transpose();

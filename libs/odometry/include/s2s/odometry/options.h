@@ -28,7 +28,7 @@ struct ImuOptions {
   /// Estimate how much later the IMU's time stamps are than the LiDAR's, and how the IMU is turned against what its
   /// mounting says; with the standard deviations to be expected. Both are allowed for, and told when they matter.
   bool estimateTimeOffset = true;
-  double timeOffsetSigma_s = 0.03;
+  double timeOffsetSigma_s = 0.02;
   bool estimateMounting = true;
   double mountingSigma_rad = 0.01;
   double maxGap_s = 0.1;  ///< longer silence is bridged with constant velocity and turn rate
