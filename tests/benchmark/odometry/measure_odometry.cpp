@@ -5,6 +5,7 @@
 
 #include "command_line.h"
 #include "contestant.h"
+#include "mrpt_icp_odometry.h"
 #include "s2s/core/atomic_file.h"
 #include "s2s/core/error.h"
 #include "s2s/core/ini_file.h"
@@ -46,6 +47,7 @@ Contestants contestantsFor(const odometry::OdometryOptions& options, bool all) {
   withoutImu.imuUse = odometry::ImuUse::never;
   contestants.push_back(std::make_unique<bench::OurOdometry>("IMU off", withoutImu));
   contestants.push_back(std::make_unique<bench::OurOdometry>("keyframe rate only", options, 0.99 / kPaperRate_hz));
+  contestants.push_back(std::make_unique<bench::MrptIcpOdometry>("MRPT's ICP", options));
   return contestants;
 }
 
