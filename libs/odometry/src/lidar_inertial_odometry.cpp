@@ -9,8 +9,6 @@ namespace s2s::odometry {
 
 namespace {
 
-/// Without IMU these many scans tell the speed at the start.
-constexpr std::size_t kLidarOnlyRehearsal = 4;
 /// Poses of the trajectory (10 ms apart) over which the present motion is taken.
 constexpr std::size_t kMotionSamples = 10;
 /// An IMU that starts later than this after the first scan is not waited for.
@@ -19,6 +17,8 @@ constexpr double kLatestImu_s = 1.0;
 constexpr double kEarly_s = 1.0;
 /// Samples are kept this much longer, as the time offset may change.
 constexpr double kImuMemory_s = 0.5;
+/// Without IMU these many scans tell the speed at the start.
+constexpr std::size_t kLidarOnlyRehearsal = 4;
 
 OdometryResult skipped(const Scan& scan, OdometryReason reason) {
   OdometryResult result;

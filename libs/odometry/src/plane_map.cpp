@@ -9,13 +9,13 @@ namespace s2s::odometry {
 
 namespace {
 
+/// Thickness to be expected of a plane, and how many points' worth that knowledge is.
+constexpr double kPriorThickness_m = 0.02;
+constexpr double kPriorPoints = 6.0;
 /// In-plane extents smaller than this share of the voxel's edge do not define a plane (a single scan line).
 constexpr double kLeastExtent = 0.08;
 /// A plane's thickness may be at most this share of its smaller extent.
 constexpr double kMostAspect = 0.35;
-/// Thickness to be expected of a plane, and how many points' worth that knowledge is.
-constexpr double kPriorThickness_m = 0.02;
-constexpr double kPriorPoints = 6.0;
 /// A fit is renewed when the number of points has grown by this factor.
 constexpr double kRefitGrowth = 1.3;
 
