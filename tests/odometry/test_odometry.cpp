@@ -3,7 +3,6 @@
 #include <iostream>
 
 #include "replay.h"
-#include "s2s/odometry/heave_fit.h"
 
 namespace s2s::odometry {
 namespace {
@@ -199,119 +198,75 @@ TEST(Odometry, ExpectedMotion_IsThatOfThePath) {
   const core::Isometry error = truth.inverse() * odometry.expectedMotion(timeOf(2.87), timeOf(2.93));
   EXPECT_LT(error.translation().norm(), 0.006);
   EXPECT_LT(core::logSo3(error.linear()).norm(), 0.002);
-/// The vessel lies still between bare walls and heaves, rolls and pitches on waves of two periods.
-Record heavingStart(double phase) {
-  Record record;
-  record.world.boxes = {{{-20, -8, -1e4}, {30, 9, 1e4}}};
-  record.path = [phase](double t) {
-    return core::isometryFromXyzYpr(0, 0, 0.03 * std::sin(3.3 * t + phase) + 0.015 * std::sin(2.3 * t + 2 * phase), 0.2,
-                                    0.03 * std::sin(3.1 * t + phase), 0.03 * std::sin(3.7 * t + 3 * phase));
-  };
-  return record;
-}
-
-double worstHeight(const Replay& run, const Record& record, double from_s, double to_s) {
-  double worst = 0;
-  for (std::size_t i = 0; i < run.results.size(); ++i) {
-    const double t = core::secondsBetween(timeOf(0), run.results[i].time);
-    const core::Isometry truth = record.path(t);
-    const double up = (truth.linear() * errorAt(run, record, i).translation()).z();
-    if (t >= from_s && t < to_s) worst = std::max(worst, std::abs(up));
-  }
-  return worst;
-}
-
-TEST(Odometry, HeavingStartBetweenBareWalls_HeightIsRightFromTheFirstPoses) {
-  for (const double phase : {0.0, 2.0}) {
-    Record record = heavingStart(phase);
-    const Replay run = replay(record);
-    // No surface tells the height. The heave's r.m.s. is 2.4 cm: to know nothing but its mean would be off by 4 cm.
-    EXPECT_LT(worstHeight(run, record, 0, 12), 0.03) << phase;
-    record.options.water.heavePrior = false;
-    // Without that knowledge a speed that is off by some centimetres a second stays.
-    EXPECT_GT(worstHeight(replay(record), record, 3, 12), 0.1) << phase;
-  }
-}
-
-TEST(HeaveFit, RegularWaves_GiveSpeedHeightAndAccelerationError) {
-  for (const double phase : {0.0, 1.5, 3.0}) {
-    const auto height = [phase](double t) { return 0.04 * std::sin(3.3 * t + phase); };
-    const Path path = [&](double t) { return core::isometryFromXyzYpr(0, 0, height(t), 0, 0, 0); };
-    const core::Isometry T_vehicle_imu = core::Isometry::Identity();
-    const ImuNoise noise{0, 0, Vector3d::Zero(), {0, 0, 0.05}};
-    Random random(1);
-    ImuBuffer imu;
-    for (int i = 0; i <= 600; ++i) imu.add(imuAt(path, 0.01 * i, T_vehicle_imu, noise, random));
-    NavState start;
-    start.time = timeOf(0);
-    start.gravity = {0, 0, -9.81};
-    const HeaveFit fit = fitHeave(start, T_vehicle_imu, imu, timeOf(6), OdometryOptions());
-    // The wave's period is tried in steps of 8 %, and prior knowledge pulls all unknowns to zero a little.
-    EXPECT_NEAR(fit.speed_mps, 0.04 * 3.3 * std::cos(phase), 0.01);
-    EXPECT_NEAR(fit.floatingHeight_m, -height(0), 0.01);
-    EXPECT_NEAR(fit.acceleration_mps2, -0.05, 0.01);
-    EXPECT_NEAR(fit.heaveSigma_m, 0.04 / std::sqrt(2.0), 0.01);
-  }
-}
-
-TEST(Odometry, Canal_HeaveKnowledgeHoldsTheHeight) {
-  // Hardly anything but vertical walls in sight.
-  Record record;
-  record.world = canal();
-  record.path = cruise(1.3, 0, 0);
-  record.duration_s = 25;
-  record.lidar.columns = 360;
-  const Replay with = replay(record);
-  const core::Isometry error = errorAt(with, record, with.results.size() - 1);
-  // The heave of 5 cm; along and across the walls and house corners hold.
-  EXPECT_LT(std::abs(error.translation().z()), 0.05);
-  EXPECT_LT(error.translation().head<2>().norm(), 0.1);
-}
-
-TEST(Odometry, PoseNees_IsHonestOverMonteCarloRuns) {
-  constexpr int kRuns = 50;
-  double sum = 0;
-  for (int run = 0; run < kRuns; ++run) {
-    Random random(900 + run);
+  /// The vessel lies still between bare walls and heaves, rolls and pitches on waves of two periods.
+  Record heavingStart(double phase) {
     Record record;
-    record.seed = 40 + run;
-    record.duration_s = 3;
-    record.lidar.rows = 24;
-    record.lidar.columns = 180;
-    record.noise.gyroBias = random.gaussian3(0.004);
-    record.noise.accelBias = random.gaussian3(0.04);
-    const double t0 = 20 * random.uniform();
-    record.path = [t0](double t) { return roomPath()(t0 + t); };
-    const Replay result = replay(record);
-    MotionAccumulator accumulator;
-    for (const auto& r : result.results) accumulator.add(r);
-    const auto motion = accumulator.motion();
-    const core::Isometry error = errorAt(result, record, result.results.size() - 1);
-    core::Vector6 e;
-    e << error.translation(), core::logSo3(error.linear());
-    sum += e.dot(motion.covariance.ldlt().solve(e));
+    record.world.boxes = {{{-20, -8, -1e4}, {30, 9, 1e4}}};
+    record.path = [phase](double t) {
+      return core::isometryFromXyzYpr(0, 0, 0.03 * std::sin(3.3 * t + phase) + 0.015 * std::sin(2.3 * t + 2 * phase),
+                                      0.2, 0.03 * std::sin(3.1 * t + phase), 0.03 * std::sin(3.7 * t + 3 * phase));
+    };
+    return record;
   }
-  std::cout << "mean NEES " << sum / kRuns << " (6 is ideal)\n";
-  // The middle 95 % of chi-square with 300 degrees of freedom, divided by 50.
-  EXPECT_GT(sum / kRuns, 5.07);
-  EXPECT_LT(sum / kRuns, 7.00);
-}
 
-TEST(Odometry, OwnHullAndWater_AreCountedAndLeftOut) {
-  Record record;
-  record.options.water.rejectBelow = true;
-  record.options.water.height_m = -1.5;  // the room's floor is then water
-  record.path = [](double t) {
-    return core::isometryFromXyzYpr(0.3 * std::sin(t), 0, 0.8, 0, 0.05 * std::sin(2 * t), 0.1);
-  };
-  record.duration_s = 3;
-  const Replay run = replay(record);
-  const auto& last = run.results.back();
-  EXPECT_GT(last.belowWaterCount, 100U);
-  const core::Isometry truth = record.path(core::secondsBetween(timeOf(0), last.time));
-  for (const auto& p : last.points_vehicle)
-    EXPECT_GT((truth.linear() * p.cast<double>()).z(), -1.5 + 0.3 - 0.1);  // 5 mrad of tilt over 15 m
-}
+  TEST(Odometry, Canal_HeaveKnowledgeHoldsTheHeight) {
+    // Hardly anything but vertical walls in sight.
+    Record record;
+    record.world = canal();
+    record.path = cruise(1.3, 0, 0);
+    record.duration_s = 25;
+    record.lidar.columns = 360;
+    const Replay with = replay(record);
+    const core::Isometry error = errorAt(with, record, with.results.size() - 1);
+    // The heave of 5 cm; along and across the walls and house corners hold.
+    EXPECT_LT(std::abs(error.translation().z()), 0.05);
+    EXPECT_LT(error.translation().head<2>().norm(), 0.1);
+  }
+
+  TEST(Odometry, PoseNees_IsHonestOverMonteCarloRuns) {
+    constexpr int kRuns = 50;
+    double sum = 0;
+    for (int run = 0; run < kRuns; ++run) {
+      Random random(900 + run);
+      Record record;
+      record.seed = 40 + run;
+      record.duration_s = 3;
+      record.lidar.rows = 24;
+      record.lidar.columns = 180;
+      record.noise.gyroBias = random.gaussian3(0.004);
+      record.noise.accelBias = random.gaussian3(0.04);
+      const double t0 = 20 * random.uniform();
+      record.path = [t0](double t) { return roomPath()(t0 + t); };
+      const Replay result = replay(record);
+      MotionAccumulator accumulator;
+      for (const auto& r : result.results) accumulator.add(r);
+      const auto motion = accumulator.motion();
+      const core::Isometry error = errorAt(result, record, result.results.size() - 1);
+      core::Vector6 e;
+      e << error.translation(), core::logSo3(error.linear());
+      sum += e.dot(motion.covariance.ldlt().solve(e));
+    }
+    std::cout << "mean NEES " << sum / kRuns << " (6 is ideal)\n";
+    // The middle 95 % of chi-square with 300 degrees of freedom, divided by 50.
+    EXPECT_GT(sum / kRuns, 5.07);
+    EXPECT_LT(sum / kRuns, 7.00);
+  }
+
+  TEST(Odometry, OwnHullAndWater_AreCountedAndLeftOut) {
+    Record record;
+    record.options.water.rejectBelow = true;
+    record.options.water.height_m = -1.5;  // the room's floor is then water
+    record.path = [](double t) {
+      return core::isometryFromXyzYpr(0.3 * std::sin(t), 0, 0.8, 0, 0.05 * std::sin(2 * t), 0.1);
+    };
+    record.duration_s = 3;
+    const Replay run = replay(record);
+    const auto& last = run.results.back();
+    EXPECT_GT(last.belowWaterCount, 100U);
+    const core::Isometry truth = record.path(core::secondsBetween(timeOf(0), last.time));
+    for (const auto& p : last.points_vehicle)
+      EXPECT_GT((truth.linear() * p.cast<double>()).z(), -1.5 + 0.3 - 0.1);  // 5 mrad of tilt over 15 m
+  }
 
 }  // namespace
 }  // namespace s2s::odometry
