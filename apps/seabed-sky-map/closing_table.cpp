@@ -16,6 +16,11 @@ std::string row(const std::string& name, const std::string& value) {
 
 std::string count(std::uint64_t n) { return std::to_string(n); }
 
+std::string gnssText(const products::GnssSummary& g) {
+  if (!g.judged()) return g.state + " (" + count(g.fixes) + " fixes)";
+  return g.state + ", " + count(g.fixes - g.unbelievable) + " of " + count(g.fixes) + " fixes agree with the map";
+}
+
 }  // namespace
 
 void requireMapArguments(const mapper::SurveyRun& run, const std::string& config) {
@@ -39,15 +44,18 @@ std::string closingTable(const products::RunSummary& s, const std::string& outpu
   text += row("pings", count(s.pingsHorizontal) + " horizontal, " + count(s.pingsVertical) + " vertical");
   text += row("keyframes", count(s.keyframes));
   text += row("loop closures", count(s.loopClosures));
-  if (s.gnss)
-    text += row("GNSS", s.gnss->state + mrpt::format(", %s of %s fixes agree with the map",
-                                                     count(s.gnss->fixes - s.gnss->unbelievable).c_str(),
-                                                     count(s.gnss->fixes).c_str()));
+  if (s.gnss) text += row("GNSS", gnssText(*s.gnss));
   for (const auto layer : map::kLayers)
     text += row(std::string("points ") + map::layerName(layer), count(s.points[static_cast<std::size_t>(layer)]));
   if (s.waterHeight_m) text += row("water height in the map", mrpt::format("%.3f m", *s.waterHeight_m));
   text += row("peak memory", mrpt::format("%.0f MB", s.peakRss_mb));
   text += row("products", output);
+  if (!s.latencies.empty())
+    text += mrpt::format("%-44s %8s %10s %10s %10s\n", "Latencies at the recorded rate", "count", "median", "95 %",
+                         "largest");
+  for (const auto& l : s.latencies)
+    text += mrpt::format("  %-42s %8s %7.1f ms %7.1f ms %7.1f ms\n", l.name.c_str(), count(l.count).c_str(),
+                         1e3 * l.median_s, 1e3 * l.p95_s, 1e3 * l.max_s);
   if (!s.warnings.empty()) text += "Warnings\n";
   for (const auto& warning : s.warnings) text += "  - " + warning + "\n";
   return text;

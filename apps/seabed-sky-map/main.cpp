@@ -30,6 +30,8 @@ int main(int argc, char** argv) {
   app.add_option("--threads", run.threads, "1: one thread, the same map bit for bit; more: a thread for each stage")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_flag("--realtime", run.realtime,
+               "Replay at the recorded rate: report latencies, and drop sweeps and pings that cannot wait");
   app.add_option("--set", overrides, "Override a value of the configuration")->type_name("SECTION.KEY=VALUE");
   app.add_flag("--print-config", printConfig, "Print the configuration that would be used and stop");
   app.add_flag("--quiet", quiet, "No progress and no closing table");

@@ -101,6 +101,29 @@ TEST(SurveyMapper, SonarsSilent_MapsWithLidarAlone) {
   EXPECT_EQ(mapper.map().pointCount(map::Layer::Stereo), 0u);
 }
 
+TEST(SurveyMapper, RealTimeWithoutTime_DropsCountsAndStillMaps) {
+  auto impatient = config();
+  impatient.mapper.queueCapacity = 2;
+  SurveyMapper mapper(impatient, 2, true);
+  // Pushed as fast as memory gives them, far faster than any machine maps.
+  for (const auto& record : survey().records) mapper.push(record, record->sensorLabel);
+  mapper.finish();
+  const auto faults = mapper.faults().lines();
+  EXPECT_TRUE(std::any_of(faults.begin(), faults.end(),
+                          [](const std::string& line) { return line.find("behind real time") != std::string::npos; }));
+  EXPECT_GT(mapper.sweepCount(), 0U);
+  const auto latencies = mapper.latencies().statistics();
+  const auto pose =
+      std::find_if(latencies.begin(), latencies.end(), [](const auto& l) { return l.name == "record: sweep to pose"; });
+  ASSERT_NE(pose, latencies.end());
+  EXPECT_EQ(pose->count, mapper.sweepCount());  // one for each sweep that was not dropped
+  EXPECT_GT(pose->median_s, 0);
+}
+
+TEST(SurveyMapper, NotInRealTime_MeasuresNoLatency) {
+  EXPECT_TRUE(mapped(config(), 2)->latencies().statistics().empty());
+}
+
 TEST(SurveyMapper, NothingPushed_FinishesEmpty) {
   SurveyMapper mapper(config(), 2);
   mapper.finish();

@@ -26,6 +26,24 @@ TEST(Worker, ThreadedOrNot_RunsEverythingInOrder) {
   EXPECT_EQ(throughWorker(true), expected);
 }
 
+TEST(Worker, FullQueue_RefusesWithoutWaiting) {
+  std::atomic<bool> go{false}, started{false};
+  std::atomic<int> handled{0};
+  Worker worker(true, 2);
+  worker.post([&] {
+    started = true;
+    while (!go) std::this_thread::yield();
+  });
+  while (!started) std::this_thread::yield();  // from here on the queue is empty and the thread busy
+  const auto task = [&] { ++handled; };
+  EXPECT_TRUE(worker.tryPost(task));
+  EXPECT_TRUE(worker.tryPost(task));
+  EXPECT_FALSE(worker.tryPost(task));
+  go = true;
+  worker.finish();
+  EXPECT_EQ(handled, 2);
+}
+
 TEST(Worker, FastProducer_WaitsForRoom) {
   std::atomic<int> handled{0};
   std::atomic<bool> go{false};

@@ -107,6 +107,7 @@ void OdometryStage::handle(const odometry::OdometryResult& result) {
   ++sweepCount_;
 
   OdometryUpdate update;
+  update.sweepTime = result.scanTime;
   update.stereo = std::exchange(stereo_, {});
   if (result.status != odometry::OdometryStatus::skipped) {
     update.path = result.path;

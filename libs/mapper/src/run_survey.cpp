@@ -3,6 +3,7 @@
 #include <chrono>
 #include <filesystem>
 #include <map>
+#include <thread>
 
 #include "gnss_summary.h"
 #include "s2s/core/atomic_file.h"
@@ -28,16 +29,26 @@ double expectedTotal_s(double done_s, double shareRead, const SurveyRun& run) {
   return std::max(done_s, end_s - run.from_s);
 }
 
+/// Sleeps until a record is due; how far reading itself is behind counts as a latency.
+void waitUntilDue(Clock::time_point start, double after_s, LatencyMonitor& latencies) {
+  const auto due = start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(after_s));
+  const auto now = Clock::now();
+  latencies.add("reading behind the recorded rate", std::max(now - due, Clock::duration::zero()));
+  if (now < due) std::this_thread::sleep_until(due);
+}
+
 /// Pushes the records of the chosen part of the rawlog into the mapper.
 void readSurvey(const SurveyRun& run, obs::RawlogReader& reader, SurveyMapper& mapper) {
   core::Progress progress(run.progress, "Mapping", 0, "s");
   std::optional<core::TimeNs> start;
+  const auto wallStart = Clock::now();
   while (const auto observation = reader.next()) {
     const core::TimeNs time = core::fromMrptTime(observation->timestamp);
     if (!start) start = time;
     const double elapsed_s = core::secondsBetween(*start, time);
     if (elapsed_s < run.from_s) continue;
     if (run.to_s >= 0 && elapsed_s > run.to_s) break;
+    if (run.realtime) waitUntilDue(wallStart, elapsed_s - run.from_s, mapper.latencies());
     mapper.push(observation, reader.where());
     progress.setTotal(expectedTotal_s(elapsed_s, reader.shareRead(), run) - (run.from_s > 0 ? run.from_s : 0));
     progress.update(elapsed_s - run.from_s);
@@ -95,6 +106,8 @@ products::RunSummary summarize(const SurveyRun& run, const SurveyConfig& config,
   std::map<std::string, mrpt::system::CTimeLogger::TCallStats> stages;
   mapper.profile().getStats(stages);
   for (const auto& [name, stats] : stages) summary.stageTimes_s.emplace_back(name, stats.total_t);
+  for (const auto& l : mapper.latencies().statistics())
+    summary.latencies.push_back({l.name, l.count, l.median_s, l.p95_s, l.max_s});
   addClosureFigures(mapper.graph().loopClosures(), summary);
   summary.effectiveIni = printSurveyConfig(config);
   return summary;
@@ -111,7 +124,7 @@ products::RunSummary runSurvey(const SurveyRun& run, const SurveyConfig& config)
   obs::RawlogReader reader(run.rawlog);
   core::writeTextFile(inFolder(run, "effective.ini"), printSurveyConfig(config));
 
-  SurveyMapper mapper(config, run.threads);
+  SurveyMapper mapper(config, run.threads, run.realtime);
   readSurvey(run, reader, mapper);
   mapper.sensors().requireLidar(run.rawlog);
   mapper.finish();

@@ -31,16 +31,14 @@ graph::GraphSlamOptions graphOptions(const SurveyConfig& config) {
 
 }  // namespace
 
-SurveyMapper::SurveyMapper(const SurveyConfig& config, int threads)
+SurveyMapper::SurveyMapper(const SurveyConfig& config, int threads, bool realtime)
     : config_(config),
       profile_(true),
+      latencies_(realtime),
       router_(config_.mapper, faults_),
       backend_(graphOptions(config_), config_.map),
       backendWorker_(threads > 1, static_cast<std::size_t>(config_.mapper.queueCapacity)),
-      sonar_(config_.sonar, faults_,
-             [this](const SonarScan& scan) {
-               backendWorker_.post(timed("back end: sonar scan", [this, scan] { backend_.addSonarScan(scan); }));
-             }),
+      sonar_(config_.sonar, faults_, [this](const SonarScan& scan) { onSonarScan(scan); }),
       sonarWorker_(threads > 1, static_cast<std::size_t>(config_.mapper.queueCapacity)),
       odometry_(odometryStageOptions(config_), faults_,
                 [this](OdometryUpdate update) { onOdometry(std::move(update)); }),
@@ -52,11 +50,14 @@ SurveyMapper::~SurveyMapper() {
 
 void SurveyMapper::push(const mrpt::obs::CObservation::Ptr& observation, const std::string& where) {
   const Role role = router_.route(*observation, where);
+  latencies_.arrived(role, core::fromMrptTime(observation->timestamp));
   switch (role) {
     case Role::Imu:
       return odometryWorker_.post(timed("odometry: IMU", [this, observation] { odometry_.addImu(*observation); }));
     case Role::Lidar:
-      return odometryWorker_.post(timed("odometry: sweep", [this, observation] { odometry_.addLidar(observation); }));
+      postRecord(odometryWorker_, timed("odometry: sweep", [this, observation] { odometry_.addLidar(observation); }),
+                 *observation);
+      return;
     case Role::Gnss:
       return odometryWorker_.post([this, observation] { odometry_.addGnss(*observation); });
     case Role::SonarHorizontal:
@@ -65,7 +66,9 @@ void SurveyMapper::push(const mrpt::obs::CObservation::Ptr& observation, const s
       const auto image = std::make_shared<std::promise<std::shared_ptr<const sonar::ProcessedPing>>>();
       const PendingPing pending{role, core::fromMrptTime(ping->timestamp), core::toIsometry(ping->sensorPose),
                                 image->get_future().share()};
-      sonarWorker_.post(timed("sonar: images", [this, role, ping, image] { sonar_.addPing({role, ping}, *image); }));
+      auto process = timed("sonar: images", [this, role, ping, image] { sonar_.addPing({role, ping}, *image); });
+      // The odometry waits for the image, so it must not hear of a ping that was dropped.
+      if (!postRecord(sonarWorker_, std::move(process), *observation)) return;
       return odometryWorker_.post(timed("odometry: stereo", [this, pending] { odometry_.addPing(pending); }));
     }
     case Role::None:
@@ -73,9 +76,34 @@ void SurveyMapper::push(const mrpt::obs::CObservation::Ptr& observation, const s
   }
 }
 
+bool SurveyMapper::postRecord(Worker& worker, Worker::Task task, const mrpt::obs::CObservation& observation) {
+  if (!latencies_.enabled()) {
+    worker.post(std::move(task));
+    return true;
+  }
+  if (worker.tryPost(std::move(task))) return true;
+  faults_.add("records of '" + observation.sensorLabel + "' were dropped because processing was behind real time",
+              core::formatUtc(core::fromMrptTime(observation.timestamp)));
+  return false;
+}
+
+void SurveyMapper::onSonarScan(const SonarScan& scan) {
+  backendWorker_.post(timed("back end: sonar scan", [this, scan] {
+    backend_.addSonarScan(scan);
+    const bool vertical = scan.layer == map::Layer::LineVertical;
+    latencies_.done(scan.layer == map::Layer::Stereo ? "record: ping to stereo points in the map"
+                                                     : "record: ping to line-scan in the map",
+                    vertical ? Role::SonarVertical : Role::SonarHorizontal, scan.time);
+  }));
+}
+
 void SurveyMapper::onOdometry(OdometryUpdate update) {
+  latencies_.done("record: sweep to pose", Role::Lidar, update.sweepTime);
   if (const auto keyframe = std::exchange(update.keyframe, nullptr))
-    backendWorker_.post(timed("back end: keyframe", [this, keyframe] { backend_.addKeyframe(*keyframe); }));
+    backendWorker_.post(timed("back end: keyframe", [this, keyframe, sweepTime = update.sweepTime] {
+      backend_.addKeyframe(*keyframe);
+      latencies_.done("record: sweep to keyframe in the map", Role::Lidar, sweepTime);
+    }));
   if (!update.fixes.empty())
     backendWorker_.post([this, fixes = std::move(update.fixes)] {
       for (const auto& fix : fixes) backend_.addGnss(fix);

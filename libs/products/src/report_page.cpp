@@ -158,6 +158,20 @@ std::string pictures(const std::vector<ReportPicture>& all) {
   return out + "</section>\n";
 }
 
+std::string latencies(const RunSummary& s) {
+  if (s.latencies.empty()) return "";
+  std::string out =
+      "<h3>Latencies at the recorded rate</h3><table>\n<tr><th></th><th class=\"n\">count</th><th class=\"n\">median"
+      "</th><th class=\"n\">95 %</th><th class=\"n\">largest</th></tr>\n";
+  for (const auto& l : s.latencies) {
+    out += "<tr><td>" + escape(l.name) + "</td><td class=\"n\">" + grouped(l.count) + "</td>";
+    for (const double value_s : {l.median_s, l.p95_s, l.max_s})
+      out += "<td class=\"n\">" + fixed(1000 * value_s, 1) + " ms</td>";
+    out += "</tr>\n";
+  }
+  return out + "</table>\n";
+}
+
 std::string numbers(const ReportContent& c) {
   const RunSummary& s = c.summary;
   std::string out = "<section><h2>Figures</h2>\n<h3>Data and solution</h3><table>\n";
@@ -189,7 +203,7 @@ std::string numbers(const ReportContent& c) {
   out += "<h3>Run</h3><table>\n" + row("Wall time", fixed(s.wall_s, 1) + " s");
   for (const auto& [name, time] : s.stageTimes_s) out += row("&emsp;" + escape(name), fixed(time, 1) + " s");
   out += row("Peak memory", fixed(s.peakRss_mb, 0) + " MB");
-  return out + "</table></section>\n";
+  return out + "</table>\n" + latencies(s) + "</section>\n";
 }
 
 std::string gnss(const RunSummary& s) {

@@ -99,6 +99,15 @@ RunSummary fromJson(const Json& json) {
     for (const auto& [name, count] : json["data_faults"].items()) s.dataFaults.emplace_back(name, count);
   if (json.contains("stage_times_s"))
     for (const auto& [name, time] : json["stage_times_s"].items()) s.stageTimes_s.emplace_back(name, time);
+  if (json.contains("latencies_s"))
+    for (const auto& [name, entry] : json["latencies_s"].items()) {
+      LatencySummary& latency = s.latencies.emplace_back();
+      latency.name = name;
+      take(entry, "count", latency.count);
+      take(entry, "median", latency.median_s);
+      take(entry, "p95", latency.p95_s);
+      take(entry, "max", latency.max_s);
+    }
   if (json.contains("figures"))
     for (const auto& [name, value] : json["figures"].items())
       s.figures.emplace_back(name, value.is_null() ? std::nan("") : value.get<double>());
@@ -135,6 +144,10 @@ std::string toJson(const RunSummary& s) {
   for (const auto& [name, value] : s.figures) json["figures"][name] = number(value);
   json["stage_times_s"] = Json::object();
   for (const auto& [name, time] : s.stageTimes_s) json["stage_times_s"][name] = number(milli(time));
+  json["latencies_s"] = Json::object();
+  for (const auto& l : s.latencies)
+    json["latencies_s"][l.name] = {
+        {"count", l.count}, {"median", number(l.median_s)}, {"p95", number(l.p95_s)}, {"max", number(l.max_s)}};
   json["data_faults"] = Json::object();
   for (const auto& [name, count] : s.dataFaults) json["data_faults"][name] = count;
   json["warnings"] = s.warnings;

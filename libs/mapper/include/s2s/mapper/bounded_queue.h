@@ -25,6 +25,20 @@ class BoundedQueue {
     return true;
   }
 
+  /// Stores the item only if there is room and the queue is open.
+  bool tryPush(T& item) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (closed_ || items_.size() >= capacity_) return false;
+    items_.push_back(std::move(item));
+    filled_.notify_one();
+    return true;
+  }
+
+  bool closed() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return closed_;
+  }
+
   /// Waits for an item; nothing once the queue is closed and empty.
   std::optional<T> pop() {
     std::unique_lock<std::mutex> lock(mutex_);
@@ -55,7 +69,7 @@ class BoundedQueue {
 
  private:
   const std::size_t capacity_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable room_, filled_;
   std::deque<T> items_;
   bool closed_ = false;

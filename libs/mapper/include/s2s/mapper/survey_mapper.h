@@ -8,6 +8,7 @@
 
 #include "s2s/mapper/backend_stage.h"
 #include "s2s/mapper/fault_log.h"
+#include "s2s/mapper/latency_monitor.h"
 #include "s2s/mapper/odometry_stage.h"
 #include "s2s/mapper/sensor_router.h"
 #include "s2s/mapper/sonar_stage.h"
@@ -25,11 +26,12 @@ namespace s2s::mapper {
 ///
 /// Stages: odometry -> (sonar, back end), sonar -> back end. With one thread they run inside `push`, and the same
 /// observations give the same map bit for bit. With more, each stage has a thread of its own behind a bounded queue;
-/// a fast reader then waits, nothing is dropped.
+/// a fast reader then waits, nothing is dropped. In real time nobody can wait: sweeps and pings that meet a full queue
+/// are dropped and counted among the faults, and latencies are measured.
 class SurveyMapper {
  public:
   /// @throws core::ConfigError if the configuration contradicts itself
-  SurveyMapper(const SurveyConfig& config, int threads);
+  SurveyMapper(const SurveyConfig& config, int threads, bool realtime = false);
   ~SurveyMapper();
 
   /// @param where place of the record, for the fault log
@@ -57,6 +59,10 @@ class SurveyMapper {
 
   FaultLog& faults() { return faults_; }
   const FaultLog& faults() const { return faults_; }
+  /// In real time: for each stage from handing over a task until it is done, and from a record's `push` until its pose
+  /// is known or its points are in the map.
+  LatencyMonitor& latencies() { return latencies_; }
+  const LatencyMonitor& latencies() const { return latencies_; }
   /// Time spent in each stage.
   const mrpt::system::CTimeLogger& profile() const { return profile_; }
 
@@ -64,16 +70,23 @@ class SurveyMapper {
   /// Runs a stage's work under a name in the profile.
   template <class Work>
   auto timed(const char* name, Work work) {
-    return [this, name, work = std::move(work)] {
-      const mrpt::system::CTimeLoggerEntry timer(profile_, name);
-      work();
+    return [this, name, posted = LatencyMonitor::Clock::now(), work = std::move(work)] {
+      {
+        const mrpt::system::CTimeLoggerEntry timer(profile_, name);
+        work();
+      }
+      latencies_.add(name, LatencyMonitor::Clock::now() - posted);
     };
   }
   void onOdometry(OdometryUpdate update);
+  void onSonarScan(const SonarScan& scan);
+  /// Posts a record that may be dropped in real time; false if it was.
+  bool postRecord(Worker& worker, Worker::Task task, const mrpt::obs::CObservation& observation);
 
   const SurveyConfig config_;
   FaultLog faults_;
   mrpt::system::CTimeLogger profile_;
+  LatencyMonitor latencies_;
   SensorRouter router_;
   // Each worker is declared after the stage it runs, last consumer first: they end in the opposite order.
   BackendStage backend_;

@@ -34,6 +34,17 @@ class Worker {
     if (!queue_.push(std::move(task))) finish();
   }
 
+  /// The same without waiting: false if the queue is full, and the task is not run then.
+  bool tryPost(Task task) {
+    if (!threaded_) {
+      task();
+      return true;
+    }
+    if (queue_.tryPush(task)) return true;
+    if (queue_.closed()) finish();
+    return false;
+  }
+
   /// Waits until everything posted is done. Rethrows what a task threw. No `post` afterwards.
   void finish() {
     queue_.close();

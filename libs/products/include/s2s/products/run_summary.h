@@ -30,6 +30,16 @@ struct GnssSummary {
   double largestDeviation_m = 0;   ///< horizontal, from the aligned map
   std::vector<Span> spans;         ///< when it contradicted the map
   std::optional<Place> mapOrigin;  ///< while trusted
+
+  /// True if there was track enough to compare it with the map.
+  bool judged() const { return state == "trusted" || distrusted; }
+};
+
+/// Latency of a stage, or of a record through several, in a run at the recorded rate.
+struct LatencySummary {
+  std::string name;
+  std::uint64_t count = 0;
+  double median_s = 0, p95_s = 0, max_s = 0;
 };
 
 /// What a mapping run was and what became of it: filled by the mapper, completed and written by `writeProducts`.
@@ -59,6 +69,7 @@ struct RunSummary {
   std::vector<std::pair<std::string, std::uint64_t>> dataFaults;
   std::vector<std::string> warnings;
   std::vector<std::pair<std::string, double>> stageTimes_s;  ///< e.g. {"odometry", 41.2}
+  std::vector<LatencySummary> latencies;                     ///< empty unless the run kept to the recorded rate
   /// Further figures for the table and `summary.json`; the name ends in its unit, e.g. {"loop_closure_residual_m",
   /// 0.02}.
   std::vector<std::pair<std::string, double>> figures;
