@@ -44,6 +44,11 @@ std::string closingTable(const products::RunSummary& s, const std::string& outpu
   text += row("pings", count(s.pingsHorizontal) + " horizontal, " + count(s.pingsVertical) + " vertical");
   text += row("keyframes", count(s.keyframes));
   text += row("loop closures", count(s.loopClosures));
+  if (s.priorMap)
+    text += row("place in the prior map", s.priorMap->located
+                                              ? mrpt::format("found after %.1f s, held by %s registrations",
+                                                             s.priorMap->after_s, count(s.priorMap->believed).c_str())
+                                              : "not found");
   if (s.gnss) text += row("GNSS", gnssText(*s.gnss));
   for (const auto layer : map::kLayers)
     text += row(std::string("points ") + map::layerName(layer), count(s.points[static_cast<std::size_t>(layer)]));

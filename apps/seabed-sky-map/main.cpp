@@ -30,6 +30,8 @@ int main(int argc, char** argv) {
   app.add_option("--threads", run.threads, "1: one thread, the same map bit for bit; more: a thread for each stage")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_option("--map", run.priorMap, "Start in the map of an earlier run (its output folder), without GNSS")
+      ->type_name("PRIOR");
   app.add_flag("--realtime", run.realtime,
                "Replay at the recorded rate: report latencies, and drop sweeps and pings that cannot wait");
   app.add_option("--set", overrides, "Override a value of the configuration")->type_name("SECTION.KEY=VALUE");

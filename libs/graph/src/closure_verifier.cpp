@@ -20,6 +20,16 @@ ClosureStatus statusOf(RegistrationStatus status) {
 
 }  // namespace
 
+LoopClosure closureFrom(const RegistrationResult& result) {
+  LoopClosure closure;
+  closure.T_from_to = result.T_target_source;
+  closure.covariance = result.covariance;
+  closure.status = statusOf(result.status);
+  closure.overlap = result.overlap;
+  closure.rmse_m = result.rmse_m;
+  return closure;
+}
+
 const RegistrationTarget& ClosureVerifier::submapAround(const SurveyState& state, int keyframe) {
   const auto found = submaps_.find(keyframe);
   if (found != submaps_.end()) return *found->second;
@@ -37,17 +47,11 @@ const RegistrationTarget& ClosureVerifier::submapAround(const SurveyState& state
 }
 
 LoopClosure ClosureVerifier::verify(const SurveyState& state, const ClosureCandidate& candidate) {
-  const RegistrationResult result = registerCloud(submapAround(state, candidate.keyframe), state.clouds_vehicle.back(),
-                                                  candidate.T_candidate_newest, registration_);
-  LoopClosure closure;
+  LoopClosure closure = closureFrom(registerCloud(submapAround(state, candidate.keyframe), state.clouds_vehicle.back(),
+                                                  candidate.T_candidate_newest, registration_));
   closure.from = candidate.keyframe;
   closure.to = state.chain.size() - 1;
-  closure.T_from_to = result.T_target_source;
-  closure.covariance = result.covariance;
   closure.source = candidate.source;
-  closure.status = statusOf(result.status);
-  closure.overlap = result.overlap;
-  closure.rmse_m = result.rmse_m;
   return closure;
 }
 

@@ -7,6 +7,9 @@
 
 namespace s2s::graph {
 
+/// A closure with measurement and verdict of a registration, still without its ends.
+LoopClosure closureFrom(const RegistrationResult& result);
+
 /// Registers the newest keyframe's cloud against the submap around a candidate.
 class ClosureVerifier {
  public:

@@ -59,13 +59,14 @@ ceres::ResidualBlockId GraphProblem::addBetween(std::size_t a, std::size_t b, co
   return problem_.AddResidualBlock(new BetweenFactor(T_a_b, information), loss, pose(a), pose(b));
 }
 
-void GraphProblem::addPrior(std::size_t node, const core::Isometry& T_map_node, const core::Matrix6& information) {
+void GraphProblem::addPrior(std::size_t node, const core::Isometry& T_map_node, const core::Matrix6& information,
+                            ceres::LossFunction* loss) {
   anchors_.emplace_back();
   double* anchor = anchors_.back().data();
   poseToBlock(core::Isometry::Identity(), anchor);
   problem_.AddParameterBlock(anchor, kPoseSize, &manifold_);
   problem_.SetParameterBlockConstant(anchor);
-  problem_.AddResidualBlock(new BetweenFactor(T_map_node, information), nullptr, anchor, pose(node));
+  problem_.AddResidualBlock(new BetweenFactor(T_map_node, information), loss, anchor, pose(node));
 }
 
 double GraphProblem::cost() {

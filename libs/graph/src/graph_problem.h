@@ -34,7 +34,8 @@ class GraphProblem {
   ceres::ResidualBlockId addBetween(std::size_t a, std::size_t b, const core::Isometry& T_a_b,
                                     const core::Matrix6& information, ceres::LossFunction* loss);
   /// Constraint of one node to a pose in the map.
-  void addPrior(std::size_t node, const core::Isometry& T_map_node, const core::Matrix6& information);
+  void addPrior(std::size_t node, const core::Isometry& T_map_node, const core::Matrix6& information,
+                ceres::LossFunction* loss = nullptr);
   /// Any other factor; the problem owns factor and loss.
   ceres::ResidualBlockId add(ceres::CostFunction* factor, ceres::LossFunction* loss,
                              const std::vector<double*>& blocks) {

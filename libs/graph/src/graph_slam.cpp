@@ -6,6 +6,7 @@
 #include "closure_verifier.h"
 #include "false_closure_source.h"
 #include "marginals.h"
+#include "relocaliser.h"
 #include "s2s/core/error.h"
 #include "s2s/graph/factors/gnss_factor.h"
 #include "s2s/graph/mrpt_network.h"
@@ -46,12 +47,13 @@ double closureChi2(const SurveyState& state, const LoopClosure& closure) {
 
 class GraphSlam::Impl {
  public:
-  explicit Impl(const GraphSlamOptions& options)
+  Impl(const GraphSlamOptions& options, std::unique_ptr<PriorMap> prior)
       : options_(options),
         consistency_(options.consistency),
         search_(options.loops, options.places),
         verifier_(options.loops, options.registration),
-        falseClosures_(options.falseClosures, options.loops, options.consistency, options.registration) {}
+        falseClosures_(options.falseClosures, options.loops, options.consistency, options.registration),
+        relocaliser_(std::move(prior), options.relocation, options.consistency) {}
 
   KeyframeUpdate addKeyframe(const KeyframeInput& input);
   void addGnss(const GnssFix& fix);
@@ -64,6 +66,7 @@ class GraphSlam::Impl {
   SurveyState state_;
   GnssReport gnss_;
   std::optional<double> waterHeight_m_;
+  RelocationReport relocation() const { return relocaliser_.report(); }
 
  private:
   void appendKeyframe(const KeyframeInput& input);
@@ -82,6 +85,7 @@ class GraphSlam::Impl {
   LoopSearch search_;
   ClosureVerifier verifier_;
   FalseClosureSource falseClosures_;
+  Relocaliser relocaliser_;
   GraphStatistics statistics_;
   int waiting_ = 0;  ///< changes of the closure set since the last optimisation
   mutable std::unique_ptr<Marginals> marginals_;
@@ -118,8 +122,11 @@ KeyframeUpdate GraphSlam::Impl::addKeyframe(const KeyframeInput& input) {
   const auto start = Clock::now();
   search_.add(state_);
   if (search_.due(state_)) searchClosures(update);
+  const RelocationChange relocation = relocaliser_.add(state_);
+  if (relocation == RelocationChange::some) ++waiting_;
   statistics_.search_s += secondsSince(start);
-  if (optimisationDue()) update.optimised = solve().status != SolveStatus::failed;
+  if (relocation == RelocationChange::moved || optimisationDue())
+    update.optimised = solve().status != SolveStatus::failed;
   return update;
 }
 
@@ -299,7 +306,8 @@ std::optional<core::Matrix6> GraphSlam::Impl::marginalCovariance(int keyframe) c
   return marginals_->of(static_cast<std::size_t>(keyframe));
 }
 
-GraphSlam::GraphSlam(const GraphSlamOptions& options) : impl_(std::make_unique<Impl>(options)) {}
+GraphSlam::GraphSlam(const GraphSlamOptions& options, std::unique_ptr<PriorMap> prior)
+    : impl_(std::make_unique<Impl>(options, std::move(prior))) {}
 GraphSlam::~GraphSlam() = default;
 GraphSlam::GraphSlam(GraphSlam&&) noexcept = default;
 
@@ -310,6 +318,7 @@ const std::vector<Keyframe>& GraphSlam::keyframes() const { return impl_->state_
 const std::vector<LoopClosure>& GraphSlam::loopClosures() const { return impl_->state_.closures; }
 GraphStatistics GraphSlam::statistics() const { return impl_->statistics(); }
 GnssReport GraphSlam::gnssReport() const { return impl_->gnss_; }
+RelocationReport GraphSlam::relocationReport() const { return impl_->relocation(); }
 std::optional<double> GraphSlam::waterHeight_m() const { return impl_->waterHeight_m_; }
 PoseGraph GraphSlam::poseGraph() const { return impl_->poseGraph(); }
 mrpt::graphs::CNetworkOfPoses3DInf GraphSlam::network() const { return toMrptNetwork(impl_->poseGraph()); }

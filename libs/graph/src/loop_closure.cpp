@@ -10,6 +10,8 @@ const char* closureSourceName(ClosureSource source) {
       return "descriptor";
     case ClosureSource::external:
       return "external";
+    case ClosureSource::priorMap:
+      return "prior map";
     case ClosureSource::injected:
       return "injected";
   }

@@ -102,6 +102,20 @@ core::OptionTable optionTable(FalseClosureOptions& o) {
   return table;
 }
 
+core::OptionTable optionTable(RelocationOptions& o) {
+  core::OptionTable table;
+  table
+      .add("candidates", o.candidates, "places of the prior map registered a keyframe until one is found",
+           core::atLeast(1))
+      .add("max_distance", o.maxDistance, "largest difference of places that look alike", {0, 1})
+      .add("shortlist", o.shortlist, "places compared in full", core::atLeast(1))
+      .add("min_support", o.minSupport, "keyframes that must agree before the place counts as found", core::atLeast(2))
+      .add("search_every_m", o.searchEvery_m, "path between two registrations afterwards", core::positive())
+      .add("radius_m", o.radius_m, "distance from the prior map's keyframes within which they are made",
+           core::positive());
+  return table;
+}
+
 core::OptionTable optionTable(OptimizerOptions& o) {
   core::OptionTable table;
   table.add("max_iterations", o.maxIterations, "iterations of the optimiser", core::atLeast(1))
@@ -137,6 +151,7 @@ std::vector<std::pair<std::string, core::OptionTable>> optionSections(GraphSlamO
   sections.emplace_back(prefix + ".optimizer", optionTable(o.optimizer));
   sections.emplace_back(prefix + ".gnss", optionTable(o.gnss));
   sections.emplace_back(prefix + ".waterline", optionTable(o.waterline));
+  sections.emplace_back(prefix + ".relocation", optionTable(o.relocation));
   sections.emplace_back(prefix + ".false_closures", optionTable(o.falseClosures));
   return sections;
 }

@@ -10,7 +10,8 @@ Eigen::Matrix3d levelRotation(const core::Isometry& T_map_vehicle) {
   return Eigen::AngleAxisd(-yaw, Eigen::Vector3d::UnitZ()).toRotationMatrix() * R;
 }
 
-void PlaceDatabase::add(const Cloud& cloud_vehicle, const Eigen::Matrix3d& R_level_vehicle) {
+PlaceDatabase::Descriptor PlaceDatabase::describe(const Cloud& cloud_vehicle,
+                                                  const Eigen::Matrix3d& R_level_vehicle) const {
   Descriptor cells = Descriptor::Zero(options_.rings, options_.sectors);
   const Eigen::Matrix3f R = R_level_vehicle.cast<float>();
   for (const auto& point_vehicle : cloud_vehicle) {
@@ -23,13 +24,17 @@ void PlaceDatabase::add(const Cloud& cloud_vehicle, const Eigen::Matrix3d& R_lev
     const int sector = std::min(static_cast<int>(turn * options_.sectors), options_.sectors - 1);
     cells(ring, sector) = std::max(cells(ring, sector), static_cast<float>(height_m));
   }
-  ringKeys_.emplace_back(cells.rowwise().mean());
-  descriptors_.push_back(std::move(cells));
+  return cells;
 }
 
-PlaceMatch PlaceDatabase::compare(int query, int place) const {
+void PlaceDatabase::add(const Cloud& cloud_vehicle, const Eigen::Matrix3d& R_level_vehicle) {
+  descriptors_.push_back(describe(cloud_vehicle, R_level_vehicle));
+  ringKeys_.emplace_back(descriptors_.back().rowwise().mean());
+}
+
+PlaceMatch PlaceDatabase::compare(const Descriptor& query, int place) const {
   const Descriptor& a = descriptors_[place];
-  const Descriptor& b = descriptors_[query];
+  const Descriptor& b = query;
   const Eigen::VectorXf normsA = a.colwise().norm(), normsB = b.colwise().norm();
   const int sectors = options_.sectors;
   PlaceMatch best;
@@ -54,21 +59,33 @@ PlaceMatch PlaceDatabase::compare(int query, int place) const {
 }
 
 std::vector<PlaceMatch> PlaceDatabase::find(int query, int count, int limit) const {
+  return search({descriptors_[query], ringKeys_[query], count, options_.shortlist, options_.maxDistance, limit});
+}
+
+std::vector<PlaceMatch> PlaceDatabase::findLike(const Cloud& cloud_vehicle, const Eigen::Matrix3d& R_level_vehicle,
+                                                int shortlist, double maxDistance, int limit) const {
+  const Descriptor cells = describe(cloud_vehicle, R_level_vehicle);
+  const Eigen::VectorXf ringKey = cells.rowwise().mean();
+  return search({cells, ringKey, size(), shortlist, maxDistance, limit});
+}
+
+std::vector<PlaceMatch> PlaceDatabase::search(const Search& query) const {
   std::vector<std::pair<float, int>> nearest;
-  for (int place = 0; place < count; ++place)
-    nearest.emplace_back((ringKeys_[place] - ringKeys_[query]).squaredNorm(), place);
-  const auto shortlist = std::min<std::size_t>(nearest.size(), static_cast<std::size_t>(options_.shortlist));
+  for (int place = 0; place < query.count; ++place)
+    nearest.emplace_back((ringKeys_[place] - query.ringKey).squaredNorm(), place);
+  const auto shortlist = std::min<std::size_t>(nearest.size(), static_cast<std::size_t>(query.shortlist));
   std::partial_sort(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(shortlist), nearest.end());
 
   std::vector<PlaceMatch> matches;
   for (std::size_t n = 0; n < shortlist; ++n) {
-    const PlaceMatch match = compare(query, nearest[n].second);
-    if (match.distance <= options_.maxDistance) matches.push_back(match);
+    const PlaceMatch match = compare(query.cells, nearest[n].second);
+    if (match.distance <= query.maxDistance) matches.push_back(match);
   }
   std::sort(matches.begin(), matches.end(), [](const PlaceMatch& a, const PlaceMatch& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.place < b.place;
   });
-  if (matches.size() > static_cast<std::size_t>(limit)) matches.resize(static_cast<std::size_t>(limit));
+  const auto limit = static_cast<std::size_t>(query.limit);
+  if (matches.size() > limit) matches.resize(limit);
   return matches;
 }
 

@@ -44,6 +44,18 @@ void addClosures(const SurveyState& state, double lossWidth, GraphProblem& graph
                        new ceres::CauchyLoss(lossWidth));
 }
 
+/// Returns true if the prior map holds the survey, which then needs no anchor of its own.
+bool addPriorFixes(const SurveyState& state, double lossWidth, GraphProblem& graph) {
+  bool any = false;
+  for (const auto& fix : state.priorFixes) {
+    if (fix.status != ClosureStatus::accepted) continue;
+    graph.addPrior(static_cast<std::size_t>(fix.to), fix.T_from_to, fix.covariance.inverse(),
+                   new ceres::CauchyLoss(lossWidth));
+    any = true;
+  }
+  return any;
+}
+
 /// One height of the surface for each section of time, each tied softly to the one before.
 void addWaterline(const SurveyState& state, const WaterlineOptions& options, SurveyProblem& survey) {
   GraphProblem& graph = *survey.graph;
@@ -100,7 +112,7 @@ SurveyProblem makeSurveyProblem(const SurveyState& state, const GraphSlamOptions
   for (int k = 1; k < state.chain.size(); ++k)
     graph.addBetween(k - 1, k, state.chain.relative(k - 1, k), stepInformation(state.chain, k), nullptr);
   const bool gravityKnown = options.useGravity && addGravity(state, options, graph);
-  addAnchor(state, gravityKnown, graph);
+  if (!addPriorFixes(state, options.closureLossWidth, graph)) addAnchor(state, gravityKnown, graph);
   addClosures(state, options.closureLossWidth, graph);
   if (options.waterline.enabled && !state.offTheWater) addWaterline(state, options.waterline, survey);
   addGnss(state, options.gnss, survey);

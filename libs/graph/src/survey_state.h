@@ -16,6 +16,7 @@ struct SurveyState {
   std::vector<std::optional<GravityMeasurement>> gravity;
   OdometryChain chain;
   std::vector<LoopClosure> closures;
+  std::vector<LoopClosure> priorFixes;  ///< poses in a prior map: T_from_to is T_prior_vehicle of keyframe `to`
   std::vector<TiedFix> fixes;
   bool offTheWater = false;  ///< the waterline prior was given up
 };

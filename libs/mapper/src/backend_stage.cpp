@@ -4,8 +4,9 @@
 
 namespace s2s::mapper {
 
-BackendStage::BackendStage(const graph::GraphSlamOptions& graphOptions, const map::MapOptions& mapOptions)
-    : graph_(graphOptions), map_(mapOptions) {}
+BackendStage::BackendStage(const graph::GraphSlamOptions& graphOptions, const map::MapOptions& mapOptions,
+                           std::unique_ptr<graph::PriorMap> prior)
+    : graph_(graphOptions, std::move(prior)), map_(mapOptions) {}
 
 void BackendStage::addKeyframe(const KeyframeData& keyframe) {
   graph::KeyframeInput input;

@@ -10,6 +10,7 @@
 #include "s2s/core/error.h"
 #include "s2s/core/progress.h"
 #include "s2s/graph/graph_io.h"
+#include "s2s/mapper/prior_map_loader.h"
 #include "s2s/mapper/survey_mapper.h"
 #include "s2s/obs/rawlog_reader.h"
 #include "s2s/products/write_products.h"
@@ -81,6 +82,20 @@ void addClosureFigures(const std::vector<graph::LoopClosure>& closures, products
   summary.figures.emplace_back("false_closures_accepted", injectedAccepted);
 }
 
+void addRelocation(const SurveyRun& run, const graph::RelocationReport& report, products::RunSummary& summary) {
+  if (!report.wanted) return;
+  products::PriorMapSummary& prior = summary.priorMap.emplace();
+  prior.folder = run.priorMap;
+  prior.located = report.located;
+  prior.registered = static_cast<std::uint64_t>(report.registered);
+  prior.believed = static_cast<std::uint64_t>(report.believed);
+  if (report.located)
+    prior.after_s = core::secondsBetween(summary.startTime, report.locatedTime);
+  else
+    summary.warnings.push_back("the survey's place in the map " + run.priorMap +
+                               " was not found: the new map stands in a frame of its own");
+}
+
 products::RunSummary summarize(const SurveyRun& run, const SurveyConfig& config, const SurveyMapper& mapper) {
   products::RunSummary summary;
   const auto& sensors = mapper.sensors();
@@ -106,6 +121,7 @@ products::RunSummary summarize(const SurveyRun& run, const SurveyConfig& config,
   std::map<std::string, mrpt::system::CTimeLogger::TCallStats> stages;
   mapper.profile().getStats(stages);
   for (const auto& [name, stats] : stages) summary.stageTimes_s.emplace_back(name, stats.total_t);
+  addRelocation(run, mapper.graph().relocationReport(), summary);
   for (const auto& l : mapper.latencies().statistics())
     summary.latencies.push_back({l.name, l.count, l.median_s, l.p95_s, l.max_s});
   addClosureFigures(mapper.graph().loopClosures(), summary);
@@ -124,7 +140,8 @@ products::RunSummary runSurvey(const SurveyRun& run, const SurveyConfig& config)
   obs::RawlogReader reader(run.rawlog);
   core::writeTextFile(inFolder(run, "effective.ini"), printSurveyConfig(config));
 
-  SurveyMapper mapper(config, run.threads, run.realtime);
+  SurveyMapper mapper(config, run.threads, run.realtime,
+                      run.priorMap.empty() ? nullptr : loadPriorMap(run.priorMap, config.graph));
   readSurvey(run, reader, mapper);
   mapper.sensors().requireLidar(run.rawlog);
   mapper.finish();

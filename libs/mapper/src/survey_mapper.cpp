@@ -31,12 +31,13 @@ graph::GraphSlamOptions graphOptions(const SurveyConfig& config) {
 
 }  // namespace
 
-SurveyMapper::SurveyMapper(const SurveyConfig& config, int threads, bool realtime)
+SurveyMapper::SurveyMapper(const SurveyConfig& config, int threads, bool realtime,
+                           std::unique_ptr<graph::PriorMap> prior)
     : config_(config),
       profile_(true),
       latencies_(realtime),
       router_(config_.mapper, faults_),
-      backend_(graphOptions(config_), config_.map),
+      backend_(graphOptions(config_), config_.map, std::move(prior)),
       backendWorker_(threads > 1, static_cast<std::size_t>(config_.mapper.queueCapacity)),
       sonar_(config_.sonar, faults_, [this](const SonarScan& scan) { onSonarScan(scan); }),
       sonarWorker_(threads > 1, static_cast<std::size_t>(config_.mapper.queueCapacity)),

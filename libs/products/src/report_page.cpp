@@ -184,6 +184,9 @@ std::string numbers(const ReportContent& c) {
   std::string source = s.waterHeightSource.empty() ? "" : " (" + escape(s.waterHeightSource) + ")";
   out += row("Height of the water surface in the map frame" + source,
              s.waterHeight_m ? fixed(*s.waterHeight_m, 3) + " m" : "none known");
+  if (s.priorMap)
+    out += row("Place in the map " + escape(s.priorMap->folder),
+               s.priorMap->located ? "found after " + fixed(s.priorMap->after_s, 1) + " s" : "not found");
   for (const auto& [name, value] : s.figures) out += row("<code>" + escape(name) + "</code>", fixed(value, 3));
   out += "</table>\n<h3>Points by layer</h3><table>\n";
   const std::array<const char*, 4> layers = {"LiDAR", "Sonar stereo: triangulated from both sonars",

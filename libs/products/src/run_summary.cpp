@@ -94,6 +94,14 @@ RunSummary fromJson(const Json& json) {
     s.waterHeight_m = json["water_height_m"].get<double>();
   take(json, "water_height_source", s.waterHeightSource);
   if (json.contains("gnss") && !json["gnss"].is_null()) s.gnss = gnssFromJson(json["gnss"]);
+  if (json.contains("prior_map") && !json["prior_map"].is_null()) {
+    PriorMapSummary& prior = s.priorMap.emplace();
+    take(json["prior_map"], "folder", prior.folder);
+    take(json["prior_map"], "located", prior.located);
+    take(json["prior_map"], "after_s", prior.after_s);
+    take(json["prior_map"], "registered", prior.registered);
+    take(json["prior_map"], "believed", prior.believed);
+  }
   take(json, "warnings", s.warnings);
   if (json.contains("data_faults"))
     for (const auto& [name, count] : json["data_faults"].items()) s.dataFaults.emplace_back(name, count);
@@ -140,6 +148,13 @@ std::string toJson(const RunSummary& s) {
   json["water_height_m"] = s.waterHeight_m ? number(*s.waterHeight_m) : Json(nullptr);
   json["water_height_source"] = s.waterHeightSource;
   json["gnss"] = s.gnss ? gnssJson(*s.gnss) : Json(nullptr);
+  json["prior_map"] = nullptr;
+  if (s.priorMap)
+    json["prior_map"] = {{"folder", s.priorMap->folder},
+                         {"located", s.priorMap->located},
+                         {"after_s", number(milli(s.priorMap->after_s))},
+                         {"registered", s.priorMap->registered},
+                         {"believed", s.priorMap->believed}};
   json["figures"] = Json::object();
   for (const auto& [name, value] : s.figures) json["figures"][name] = number(value);
   json["stage_times_s"] = Json::object();

@@ -35,7 +35,8 @@ struct GraphStatistics {
 /// no threads, and the same calls give the same result. Not safe for concurrent calls.
 class GraphSlam {
  public:
-  explicit GraphSlam(const GraphSlamOptions& options = {});
+  /// @param prior a map made before, in whose frame the survey shall stand once its place is found; null: none
+  explicit GraphSlam(const GraphSlamOptions& options = {}, std::unique_ptr<PriorMap> prior = nullptr);
   ~GraphSlam();
   GraphSlam(GraphSlam&&) noexcept;
 
@@ -58,6 +59,7 @@ class GraphSlam {
   const std::vector<LoopClosure>& loopClosures() const;  ///< all candidates, with what became of them
   GraphStatistics statistics() const;
   GnssReport gnssReport() const;
+  RelocationReport relocationReport() const;
   /// Height of the water surface in the map frame at the last keyframe, if the waterline prior is on and was not given
   /// up because the vehicle does not float.
   std::optional<double> waterHeight_m() const;

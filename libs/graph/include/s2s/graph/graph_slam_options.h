@@ -6,6 +6,7 @@
 #include "s2s/graph/gnss_guest.h"
 #include "s2s/graph/keyframe_policy.h"
 #include "s2s/graph/optimizer.h"
+#include "s2s/graph/prior_map.h"
 #include "s2s/graph/scan_context.h"
 
 namespace s2s::graph {
@@ -43,6 +44,7 @@ struct GraphSlamOptions {
   GnssOptions gnss;
   WaterlineOptions waterline;
   FalseClosureOptions falseClosures;
+  RelocationOptions relocation;
 
   double cloudVoxel_m = 0.4;    ///< thinning of the clouds that are kept
   int cloudPoints = 4000;       ///< and their largest size

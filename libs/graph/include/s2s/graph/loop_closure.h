@@ -10,6 +10,7 @@ enum class ClosureSource {
   proximity,   ///< the estimated poses are near each other
   descriptor,  ///< the places look alike
   external,    ///< given from outside
+  priorMap,    ///< registered against a map made before
   injected     ///< wrong on purpose, see FalseClosureOptions
 };
 

@@ -36,9 +36,22 @@ class PlaceDatabase {
   /// Places among the first `count` that look like place `query`, best first, at most `limit`.
   std::vector<PlaceMatch> find(int query, int count, int limit) const;
 
+  /// Places that look like this cloud, best first; `shortlist` and `maxDistance` stand for those of the options.
+  std::vector<PlaceMatch> findLike(const Cloud& cloud_vehicle, const Eigen::Matrix3d& R_level_vehicle, int shortlist,
+                                   double maxDistance, int limit) const;
+
  private:
   using Descriptor = Eigen::MatrixXf;  ///< rings x sectors, heights above minHeight_m, 0 where empty
-  PlaceMatch compare(int query, int place) const;
+  struct Search {
+    const Descriptor& cells;
+    const Eigen::VectorXf& ringKey;
+    int count, shortlist;
+    double maxDistance;
+    int limit;
+  };
+  Descriptor describe(const Cloud& cloud_vehicle, const Eigen::Matrix3d& R_level_vehicle) const;
+  std::vector<PlaceMatch> search(const Search& query) const;
+  PlaceMatch compare(const Descriptor& query, int place) const;
 
   ScanContextOptions options_;
   std::vector<Descriptor> descriptors_;

@@ -11,7 +11,8 @@ namespace s2s::mapper {
 /// Last stage: the pose graph and the map that hangs on it. Keyframes and sonar scans may come in any interleaving.
 class BackendStage {
  public:
-  BackendStage(const graph::GraphSlamOptions& graphOptions, const map::MapOptions& mapOptions);
+  BackendStage(const graph::GraphSlamOptions& graphOptions, const map::MapOptions& mapOptions,
+               std::unique_ptr<graph::PriorMap> prior = nullptr);
 
   void addKeyframe(const KeyframeData& keyframe);
   void addSonarScan(const SonarScan& scan);

@@ -15,6 +15,7 @@ struct SurveyRun {
   double from_s = 0;   ///< seconds from the first record; earlier ones are skipped
   double to_s = -1;    ///< seconds from the first record; negative: to the end
   int threads = 2;
+  std::string priorMap;   ///< output folder of an earlier run, in whose frame to map; empty: none
   bool realtime = false;  ///< replay at the recorded rate, drop what cannot be processed in time, measure latencies
   std::ostream* progress = nullptr;  ///< where progress goes; null: nowhere
 };

@@ -31,7 +31,9 @@ namespace s2s::mapper {
 class SurveyMapper {
  public:
   /// @throws core::ConfigError if the configuration contradicts itself
-  SurveyMapper(const SurveyConfig& config, int threads, bool realtime = false);
+  /// @param prior a map made before, in whose frame the new one shall stand once its place in it is found
+  SurveyMapper(const SurveyConfig& config, int threads, bool realtime = false,
+               std::unique_ptr<graph::PriorMap> prior = nullptr);
   ~SurveyMapper();
 
   /// @param where place of the record, for the fault log

@@ -42,6 +42,15 @@ struct LatencySummary {
   double median_s = 0, p95_s = 0, max_s = 0;
 };
 
+/// How a run found its place in a map made before.
+struct PriorMapSummary {
+  std::string folder;
+  bool located = false;          ///< else the new map stands in a frame of its own
+  double after_s = 0;            ///< from the first record until the place was found
+  std::uint64_t registered = 0;  ///< keyframes registered against the old map after that
+  std::uint64_t believed = 0;    ///< registrations that hold the new map in the old one's frame
+};
+
 /// What a mapping run was and what became of it: filled by the mapper, completed and written by `writeProducts`.
 struct RunSummary {
   std::vector<std::string> inputs;  ///< rawlog files
@@ -63,7 +72,8 @@ struct RunSummary {
   std::optional<double> waterHeight_m;  ///< height of the water surface in the map frame, when it is known
   std::string waterHeightSource;        ///< e.g. "configured", "estimated from the LiDAR"
 
-  std::optional<GnssSummary> gnss;  ///< nothing without fixes
+  std::optional<PriorMapSummary> priorMap;  ///< nothing without one
+  std::optional<GnssSummary> gnss;          ///< nothing without fixes
 
   /// Faults of the data by kind, e.g. {"records out of order", 3}.
   std::vector<std::pair<std::string, std::uint64_t>> dataFaults;
