@@ -50,6 +50,31 @@ TEST_F(SensorRouterTest, ConfiguredMounting_ReplacesTheRecordedOne) {
   EXPECT_TRUE(core::toIsometry(lidar.sensorPose).isApprox(*options.lidar.T_vehicle_sensor, 1e-12));
 }
 
+TEST_F(SensorRouterTest, TimeOffsetAndSoundSpeed_AreTakenIntoThePing) {
+  options.timeOffsetVertical_s = 0.03;
+  options.soundSpeed_mps = 1465.2;  // 1 % below what the device used
+  SensorRouter router(options, faults);
+  auto ping = labelled<obs::CObservationImagingSonar>("SONAR_VERTICAL", 1.0);
+  ping.soundSpeed_mps = 1480;
+  ping.rangeResolution_m = 0.02;
+  ping.bearings_rad = {-0.5F, 0.5F};
+  EXPECT_EQ(router.route(ping, "0"), Role::SonarVertical);
+  EXPECT_EQ(core::fromMrptTime(ping.timestamp), kStart + core::durationNs(0.97));
+  EXPECT_DOUBLE_EQ(ping.rangeResolution_m, 0.02 * 0.99);
+  EXPECT_NEAR(std::sin(ping.bearings_rad[1]), 0.99 * std::sin(0.5), 1e-7);  // a float's resolution
+  EXPECT_DOUBLE_EQ(ping.soundSpeed_mps, 1465.2);
+}
+
+TEST_F(SensorRouterTest, PingWithoutSoundSpeed_StaysAndIsReported) {
+  options.soundSpeed_mps = 1465;
+  SensorRouter router(options, faults);
+  auto ping = labelled<obs::CObservationImagingSonar>("SONAR_HORIZONTAL", 1.0);
+  ping.rangeResolution_m = 0.02;
+  router.route(ping, "0");
+  EXPECT_DOUBLE_EQ(ping.rangeResolution_m, 0.02);
+  EXPECT_THAT(faults.lines(), Contains(HasSubstr("sound speed")));
+}
+
 TEST_F(SensorRouterTest, TimeRunsBackwards_RecordIsDroppedAndCounted) {
   SensorRouter router(options, faults);
   auto first = labelled<mrpt::obs::CObservationIMU>("IMU", 1.0);

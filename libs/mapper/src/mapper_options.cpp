@@ -31,6 +31,14 @@ core::OptionTable optionTable(MapperOptions& o) {
   addSensor(table, "sonar_horizontal", o.sonarHorizontal, "the horizontal sonar");
   addSensor(table, "sonar_vertical", o.sonarVertical, "the vertical sonar");
   addSensor(table, "gnss", o.gnss, "the GNSS antenna");
+  table.add("time_offset_sonar_horizontal_s", o.timeOffsetHorizontal_s,
+            "How far the horizontal sonar's recorded times are late; taken off", {-1, 1});
+  table.add("time_offset_sonar_vertical_s", o.timeOffsetVertical_s,
+            "How far the vertical sonar's recorded times are late; taken off", {-1, 1});
+  table.add(
+      "sound_speed_mps", o.soundSpeed_mps,
+      "True sound speed in the water; 0 takes the devices' own (pings that do not tell theirs are left as they are)",
+      {0, 2000});
   table.add("stereo_pair_window_s", o.stereoPairWindow_s,
             "Pings of the two sonars no further apart than this are a stereo pair", {0.0, 1.0});
   table.add("on_water", o.onWater, "False on land: no water surface is estimated and nothing is cut at it");

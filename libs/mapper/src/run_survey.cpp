@@ -8,12 +8,12 @@
 #include "gnss_summary.h"
 #include "s2s/core/atomic_file.h"
 #include "s2s/core/error.h"
-#include "s2s/core/progress.h"
 #include "s2s/graph/graph_io.h"
 #include "s2s/mapper/prior_map_loader.h"
 #include "s2s/mapper/survey_mapper.h"
 #include "s2s/obs/rawlog_reader.h"
 #include "s2s/products/write_products.h"
+#include "survey_reading.h"
 
 namespace s2s::mapper {
 
@@ -23,13 +23,6 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Total length of the survey in seconds, extrapolated from the share of the file that was read.
-double expectedTotal_s(double done_s, double shareRead, const SurveyRun& run) {
-  const double all_s = shareRead > 0 ? done_s / shareRead : 0;
-  const double end_s = run.to_s > 0 ? std::min(run.to_s, all_s) : all_s;
-  return std::max(done_s, end_s - run.from_s);
-}
-
 /// Sleeps until a record is due; how far reading itself is behind counts as a latency.
 void waitUntilDue(Clock::time_point start, double after_s, LatencyMonitor& latencies) {
   const auto due = start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(after_s));
@@ -38,26 +31,17 @@ void waitUntilDue(Clock::time_point start, double after_s, LatencyMonitor& laten
   if (now < due) std::this_thread::sleep_until(due);
 }
 
-/// Pushes the records of the chosen part of the rawlog into the mapper.
+/// Pushes the records of the chosen part of the rawlog into the mapper, in real time if wanted.
 void readSurvey(const SurveyRun& run, obs::RawlogReader& reader, SurveyMapper& mapper) {
-  core::Progress progress(run.progress, "Mapping", 0, "s");
-  std::optional<core::TimeNs> start;
+  std::optional<core::TimeNs> first;
   const auto wallStart = Clock::now();
-  while (const auto observation = reader.next()) {
-    const core::TimeNs time = core::fromMrptTime(observation->timestamp);
-    if (!start) start = time;
-    const double elapsed_s = core::secondsBetween(*start, time);
-    if (elapsed_s < run.from_s) continue;
-    if (run.to_s >= 0 && elapsed_s > run.to_s) break;
-    if (run.realtime) waitUntilDue(wallStart, elapsed_s - run.from_s, mapper.latencies());
-    mapper.push(observation, reader.where());
-    progress.setTotal(expectedTotal_s(elapsed_s, reader.shareRead(), run) - (run.from_s > 0 ? run.from_s : 0));
-    progress.update(elapsed_s - run.from_s);
-  }
-  for (const auto& fault : reader.faults())
-    mapper.faults().add(
-        fault.fatal() ? "reading ended early: " + fault.text : fault.text,
-        reader.path() + ", record " + std::to_string(fault.record) + ", byte " + std::to_string(fault.byte));
+  readRecords({run.from_s, run.to_s, "Mapping", run.progress}, reader, mapper.faults(),
+              [&](const mrpt::obs::CObservation::Ptr& record, const std::string& where) {
+                const core::TimeNs time = core::fromMrptTime(record->timestamp);
+                if (!first) first = time;
+                if (run.realtime) waitUntilDue(wallStart, core::secondsBetween(*first, time), mapper.latencies());
+                mapper.push(record, where);
+              });
 }
 
 /// Loop closures by what became of them; injected ones only if there were any.

@@ -9,6 +9,7 @@
 #include "s2s/core/error.h"
 #include "s2s/obs/CObservationImagingSonar.h"
 #include "s2s/obs/CObservationLidarSweep.h"
+#include "s2s/sonar/sound_speed.h"
 
 namespace s2s::mapper {
 
@@ -62,6 +63,7 @@ Role SensorRouter::route(mrpt::obs::CObservation& observation, const std::string
         where);
     return Role::None;
   }
+  if (core::fromMrptTime(observation.timestamp) > 0) correctPing(observation, role);
   const core::TimeNs time = core::fromMrptTime(observation.timestamp);
   if (time <= 0) {
     faults_.add("records of '" + label + "' without a time were dropped", where);
@@ -81,6 +83,18 @@ Role SensorRouter::route(mrpt::obs::CObservation& observation, const std::string
   first_ = std::min(first_, time);
   last_ = std::max(last_, time);
   return role;
+}
+
+void SensorRouter::correctPing(mrpt::obs::CObservation& observation, Role role) {
+  if (role != Role::SonarHorizontal && role != Role::SonarVertical) return;
+  const double offset_s =
+      role == Role::SonarHorizontal ? options_.timeOffsetHorizontal_s : options_.timeOffsetVertical_s;
+  if (offset_s != 0)
+    observation.timestamp = core::toMrptTime(core::fromMrptTime(observation.timestamp) - core::durationNs(offset_s));
+  if (options_.soundSpeed_mps > 0 &&
+      !sonar::correctSoundSpeed(dynamic_cast<obs::CObservationImagingSonar&>(observation), options_.soundSpeed_mps))
+    faults_.add("pings of '" + observation.sensorLabel +
+                "' do not tell the sound speed they were made with, so sound_speed_mps does not change them");
 }
 
 void SensorRouter::requireLidar(const std::string& rawlog) const {

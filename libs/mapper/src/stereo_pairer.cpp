@@ -5,6 +5,13 @@
 
 namespace s2s::mapper {
 
+namespace {
+
+/// A vertical ping does not wait longer than this for a horizontal sonar that has fallen silent.
+constexpr double kPatience_s = 1.0;
+
+}  // namespace
+
 StereoPairer::StereoPairer(const sonar::SonarOptions& options, double window_s, Motion motion)
     : stereo_(options.horizontal, options.vertical, options.stereo),
       window_(core::durationNs(window_s)),
@@ -12,8 +19,10 @@ StereoPairer::StereoPairer(const sonar::SonarOptions& options, double window_s, 
 
 std::vector<StereoScan> StereoPairer::add(PendingPing ping) {
   const core::TimeNs time = ping.time;
-  (ping.role == Role::SonarHorizontal ? horizontal_ : vertical_).push_back(std::move(ping));
-  return pairUntil(time);
+  const bool isHorizontal = ping.role == Role::SonarHorizontal;
+  (isHorizontal ? horizontal_ : vertical_).push_back(std::move(ping));
+  // Corrected times of the two sonars may come out of order, so only the horizontal sonar's own tell what may yet come.
+  return pairUntil(isHorizontal ? time : time - core::durationNs(kPatience_s));
 }
 
 std::vector<StereoScan> StereoPairer::finish() { return pairUntil(std::numeric_limits<core::TimeNs>::max()); }
@@ -27,7 +36,8 @@ std::vector<StereoScan> StereoPairer::pairUntil(core::TimeNs newest) {
     }
     vertical_.pop_front();
   }
-  const core::TimeNs oldest = vertical_.empty() ? newest : vertical_.front().time;
+  // Without a vertical ping at hand, one of up to a moment ago may still come.
+  const core::TimeNs oldest = vertical_.empty() ? newest - core::durationNs(kPatience_s) : vertical_.front().time;
   while (!horizontal_.empty() && horizontal_.front().time < oldest - window_) horizontal_.pop_front();
   return scans;
 }

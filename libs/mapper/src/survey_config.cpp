@@ -1,5 +1,6 @@
 #include "s2s/mapper/survey_config.h"
 
+#include "s2s/calib/options_table.h"
 #include "s2s/core/error.h"
 #include "s2s/core/ini_file.h"
 #include "s2s/graph/options_table.h"
@@ -22,7 +23,9 @@ Sections sectionsOf(SurveyConfig& config) {
                        {"map.resolver", map::optionTable(config.map.resolver)},
                        {"map.likelihood", map::optionTable(config.map.likelihood)},
                        {"map.view", map::optionTable(config.map.view)},
-                       {"products", products::optionTable(config.products)}};
+                       {"products", products::optionTable(config.products)},
+                       {"calibration", calib::optionTable(config.calibration)},
+                       {"calibration.swath", calib::optionTable(config.swath)}};
   for (auto& section : graph::optionSections(config.graph)) sections.push_back(std::move(section));
   return sections;
 }

@@ -23,6 +23,10 @@ struct MapperOptions {
   SensorOptions gnss{"GNSS", {}};
   GnssReaderOptions gnssReader;
 
+  /// Recorded time less true time of a sonar's pings; taken off when they are read.
+  double timeOffsetHorizontal_s = 0, timeOffsetVertical_s = 0;
+  /// True sound speed in the water: ranges and bearings are corrected from the one each device used. 0: devices' own.
+  double soundSpeed_mps = 0;
   /// Pings of the two sonars no further apart than this are a stereo pair (15 Hz against 10 Hz: up to 33 ms).
   double stereoPairWindow_s = 0.04;
   /// Height of the water surface in the vehicle frame when the vessel floats at rest.

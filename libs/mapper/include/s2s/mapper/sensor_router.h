@@ -23,7 +23,8 @@ class SensorRouter {
  public:
   SensorRouter(const MapperOptions& options, FaultLog& faults);
 
-  /// @param observation its sensor pose is replaced when the configuration gives one
+  /// @param observation its sensor pose is replaced when the configuration gives one; of a ping also time, ranges and
+  ///                    bearings are corrected by the configured time offset and sound speed
   /// @param where       place of the record, for the fault log
   Role route(mrpt::obs::CObservation& observation, const std::string& where);
 
@@ -38,6 +39,8 @@ class SensorRouter {
 
  private:
   Role roleOf(const std::string& label) const;
+  /// Takes the configured time offset and sound speed into a ping.
+  void correctPing(mrpt::obs::CObservation& observation, Role role);
 
   const MapperOptions& options_;
   FaultLog& faults_;

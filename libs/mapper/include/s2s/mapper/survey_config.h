@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "s2s/calib/options.h"
 #include "s2s/graph/graph_slam_options.h"
 #include "s2s/map/options.h"
 #include "s2s/mapper/mapper_options.h"
@@ -20,6 +21,8 @@ struct SurveyConfig {
   graph::GraphSlamOptions graph;
   map::MapOptions map;
   products::ProductsOptions products;
+  calib::CalibrationOptions calibration;  ///< only sonar-calibrate uses it
+  calib::SwathOptions swath;              ///< likewise
 
   /// A vessel floats unless `mapper.onWater` says otherwise, so the graph's waterline prior is on; GNSS is welcome as
   /// a guest.

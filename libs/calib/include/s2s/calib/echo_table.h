@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "s2s/calib/sonar_parameters.h"
+#include "s2s/calib/swath.h"
+#include "s2s/core/time.h"
+
+namespace s2s::calib {
+
+/// What a measured range means.
+enum class EchoKind : std::uint8_t {
+  NearEdge = 0,  ///< the band begins: the lower edge of the aperture meets the seabed
+  FarEdge = 1,   ///< the band ends: the upper edge meets it
+  Middle = 2     ///< centre of the band of a plane that crosses the seabed upright: the mean over the aperture
+};
+constexpr std::size_t kEchoKinds = 3;
+
+struct Echo {
+  float bearing_rad = 0, range_m = 0;
+  EchoKind kind = EchoKind::Middle;
+  /// Elevation as a share of half the (corrected) aperture: -1 and +1 are its edges.
+  float elevationShare = 0;
+};
+
+/// One ping, reduced to what the calibration needs.
+struct PingEchoes {
+  core::TimeNs time = 0;  ///< as recorded
+  SonarId sonar = SonarId::Horizontal;
+  std::vector<Echo> echoes;
+};
+
+/// Turns bands into echoes by how the imaging plane lies to the water.
+///
+/// A plane that crosses the vertical by more than the aperture (the horizontal sonar's, pitched down) meets the seabed
+/// with the aperture's lower edge first and its upper edge last. A nearly upright plane (the vertical sonar's) meets it
+/// at all elevations at about one range: the centre of the band is the mean over the aperture, taken at the two points
+/// of Gauss' quadrature, +-1/sqrt(3) of half the aperture, on every other beam.
+std::vector<Echo> echoesOf(const std::vector<Swath>& swaths, const core::Isometry& T_vehicle_sonar, double aperture_rad,
+                           double maxRange_m);
+
+}  // namespace s2s::calib

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "s2s/calib/options.h"
+#include "s2s/core/option_table.h"
+
+namespace s2s::calib {
+
+/// The keys of [calibration].
+core::OptionTable optionTable(CalibrationOptions& options);
+/// The keys of [calibration.swath].
+core::OptionTable optionTable(SwathOptions& options);
+
+}  // namespace s2s::calib

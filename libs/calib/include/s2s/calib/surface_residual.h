@@ -1,0 +1,95 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "s2s/calib/echo_table.h"
+#include "s2s/calib/sonar_parameters.h"
+
+namespace s2s::calib {
+
+/// Where the vehicle was at a ping and how it moved, for the nominal time offset of this round.
+struct PingMotion {
+  core::Isometry T_map_vehicle = core::Isometry::Identity();
+  Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();  ///< in the vehicle's frame
+  Eigen::Vector3d rate_radps = Eigen::Vector3d::Zero();    ///< in the vehicle's frame
+  double timeOffset_s = 0;                                 ///< correction kTime at which the pose was taken
+};
+
+/// R = exp(w), applied to p; also for Ceres' jets, and smooth at w = 0.
+template <class T>
+Eigen::Matrix<T, 3, 1> rotate(const Eigen::Matrix<T, 3, 1>& w, const Eigen::Matrix<T, 3, 1>& p) {
+  using std::cos;
+  using std::sin;
+  using std::sqrt;
+  const T angle2 = w.squaredNorm();
+  const Eigen::Matrix<T, 3, 1> wp = w.cross(p);
+  if (angle2 < T(1e-12)) return p + wp + T(0.5) * w.cross(wp);
+  const T angle = sqrt(angle2);
+  return p + (sin(angle) / angle) * wp + ((T(1) - cos(angle)) / angle2) * w.cross(wp);
+}
+
+/// The place in the map of an echo: beam model, range and bearing for the sound speed, aperture, mounting, time.
+///
+/// A device that believes c_d in water of c scales ranges by c_d / c and steers by delays, so
+///   r = r_measured c / c_d - range error,   sin b = sin b_measured c / c_d,
+/// and the elevation is that of the echo's kind. To first order the vehicle at another time offset has moved on by
+/// (kTime - timeOffset) seconds less of its motion.
+template <class T>
+Eigen::Matrix<T, 3, 1> echoPoint(const Echo& echo, const SonarState& sonar, const PingMotion& motion,
+                                 const T* const correction, const T& soundSpeed_mps) {
+  using std::cos;
+  using std::sin;
+  using std::sqrt;
+  using Vector = Eigen::Matrix<T, 3, 1>;
+  const T ratio = soundSpeed_mps / T(sonar.deviceSoundSpeed_mps);
+  const auto bearing = static_cast<double>(echo.bearing_rad);
+  const T rangeError = correction[kRange] + correction[kScale] * static_cast<double>(echo.range_m) +
+                       correction[kRangeTilt] * bearing + correction[kRangeBend] * (bearing * bearing);
+  const T range = T(echo.range_m) * ratio - rangeError;
+  const T sinBearing = T(std::sin(bearing)) * ratio;
+  const T cosBearing = sqrt(T(1) - sinBearing * sinBearing);
+  T beyond(0);
+  if (echo.kind == EchoKind::NearEdge) beyond = correction[kNear] + correction[kNearBend] * (bearing * bearing);
+  if (echo.kind == EchoKind::FarEdge) beyond = correction[kFar] + correction[kFarBend] * (bearing * bearing);
+  const T elevation = T(echo.elevationShare) * (T(0.5 * sonar.aperture_rad) + beyond);
+  const T sinE = sin(elevation), cosE = cos(elevation);
+  Vector p_sonar;
+  if (sonar.model == obs::BearingModel::Azimuth)
+    p_sonar = Vector(cosE * cosBearing, cosE * sinBearing, sinE) * range;
+  else
+    p_sonar = Vector(sqrt(T(1) - sinBearing * sinBearing - sinE * sinE), sinBearing, sinE) * range;
+
+  const Vector turned = rotate<T>(Vector(correction[kRotX], correction[kRotY], correction[kRotZ]), p_sonar);
+  const Vector t =
+      sonar.T_vehicle_sonar.translation().template cast<T>() + Vector(correction[kX], correction[kY], correction[kZ]);
+  const Vector p_vehicle = sonar.T_vehicle_sonar.linear().template cast<T>() * turned + t;
+  const T later = T(motion.timeOffset_s) - correction[kTime];
+  const Vector moved = motion.velocity_mps.template cast<T>() + motion.rate_radps.template cast<T>().cross(p_vehicle);
+  const Vector p_vehicle_then = p_vehicle + moved * later;
+  return motion.T_map_vehicle.linear().template cast<T>() * p_vehicle_then +
+         motion.T_map_vehicle.translation().template cast<T>();
+}
+
+/// How far an echo's point lies above a seabed given by heights at the four corners of a grid cell, in standard
+/// deviations. For ceres::AutoDiffCostFunction<SeabedResidual, 1, kSonarParameters, 1, 1, 1, 1, 1>.
+struct SeabedResidual {
+  Echo echo;
+  const SonarState* sonar = nullptr;
+  const PingMotion* motion = nullptr;
+  Eigen::Vector2d corner_m;  ///< lower corner of the cell, map frame
+  double cell_m = 1;
+  double weight_perM = 1;  ///< of a metre of height
+
+  template <class T>
+  bool operator()(const T* const correction, const T* const soundSpeed, const T* const h00, const T* const h10,
+                  const T* const h01, const T* const h11, T* residual) const {
+    const auto p = echoPoint<T>(echo, *sonar, *motion, correction, *soundSpeed);
+    const T u = (p.x() - T(corner_m.x())) / T(cell_m), v = (p.y() - T(corner_m.y())) / T(cell_m);
+    const T seabed = (T(1) - u) * (T(1) - v) * *h00 + u * (T(1) - v) * *h10 + (T(1) - u) * v * *h01 + u * v * *h11;
+    residual[0] = (p.z() - seabed) * T(weight_perM);
+    return true;
+  }
+};
+
+}  // namespace s2s::calib

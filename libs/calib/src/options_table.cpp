@@ -1,0 +1,62 @@
+#include "s2s/calib/options_table.h"
+
+namespace s2s::calib {
+
+core::OptionTable optionTable(CalibrationOptions& o) {
+  core::OptionTable table;
+  table.add("max_echoes", o.maxEchoes, "Pings are thinned out to stay below so many echoes", {1000, 1e7});
+  table.addDegrees("max_bearing_deg", o.maxBearing_rad, "Beams further out are not used", {1, 89});
+  table.addDegrees("far_edge_bearing_deg", o.farEdgeBearing_rad, "Far edges further out are not used", {0, 89});
+  table.add("cell_m", o.cell_m, "Grid of the seabed's heights", {0.05, 5});
+  table.add("roughness_m", o.roughness_m, "Standard deviation of the second difference of neighbouring heights",
+            {1e-4, 10});
+  table.add("min_cell_echoes", o.minCellEchoes, "Cells with fewer echoes are left out", {1, 1000});
+  table.add("rounds", o.rounds, "Rounds of association and estimation", {1, 100});
+  table.add("first_gate_m", o.firstGate_m, "Echoes further from the seabed are left out, first round", {0.01, 10});
+  table.add("last_gate_m", o.lastGate_m, "The same, last round", {0.01, 10});
+  table.add("loss_width", o.lossWidth, "Width of Cauchy's loss, in standard deviations", {0.1, 100});
+  table.add("common_share", o.commonShare, "Share of the ranges' spread that is common to all echoes of a kind",
+            {0.001, 1});
+  table.add("position_sigma_m", o.positionSigma_m, "How well mountings are known beforehand", core::positive());
+  table.addDegrees("rotation_sigma_deg", o.rotationSigma_rad, "How well mountings are known beforehand",
+                   core::positive());
+  table.add("time_sigma_s", o.timeSigma_s, "How well time offsets are known beforehand", core::positive());
+  table.add("sound_speed_sigma_mps", o.soundSpeedSigma_mps, "How well the sound speed is known beforehand",
+            core::positive());
+  table.addDegrees("aperture_sigma_deg", o.apertureSigma_rad, "How well the aperture's edges are known",
+                   core::positive());
+  table.addDegrees("aperture_asymmetry_sigma_deg", o.apertureAsymmetrySigma_rad,
+                   "How much the aperture's two edges may differ", core::positive());
+  table.addDegrees("aperture_bend_sigma_deg", o.apertureBendSigma_rad,
+                   "How much the aperture's edges may change from the fan's centre to a radian", core::positive());
+  table.add("weak_share", o.weakShare,
+            "Directions known worse than this share of what was known beforehand stay nominal", {0.01, 1});
+  table.add("range_sigma_m", o.rangeSigma_m, "How well a constant error of all ranges is known", core::positive());
+  table.add("range_bearing_sigma_m", o.rangeBearingSigma_m,
+            "How well an error of ranges that grows with bearing is known, at a radian", core::positive());
+  table.add("range_scale_sigma", o.rangeScaleSigma, "How well an error of ranges that grows with range is known",
+            core::positive());
+  table.add("position_limit_m", o.positionLimit_m, "Known better than this it counts as observable", core::positive());
+  table.addDegrees("rotation_limit_deg", o.rotationLimit_rad, "Known better than this it counts as observable",
+                   core::positive());
+  table.add("time_limit_s", o.timeLimit_s, "Known better than this it counts as observable", core::positive());
+  table.add("sound_speed_limit_mps", o.soundSpeedLimit_mps, "Known better than this it counts as observable",
+            core::positive());
+  table.add("block_s", o.block_s, "Errors within such a time count as correlated", core::positive());
+  return table;
+}
+
+core::OptionTable optionTable(SwathOptions& o) {
+  core::OptionTable table;
+  table.add("beam_step", o.beamStep, "One beam in so many is looked at", {1, 1000});
+  table.add("beams_averaged", o.beamsAveraged, "So many neighbouring beams are averaged", {1, 99});
+  table.add("min_range_m", o.minRange_m, "Nearer bins hold the ring-down", {0, 1000});
+  table.add("floor_quantile", o.floorQuantile, "Quantile of a row that is its noise floor", {0, 1});
+  table.addDegrees("edge_window_deg", o.edgeWindow_rad, "Elevation: half the window in which an edge is refined",
+                   {0.1, 45});
+  table.add("min_length_m", o.minLength_m, "A shorter band is noise", {0, 100});
+  table.add("min_contrast", o.minContrast, "Least summed excess over the threshold, in thresholds", {0, 1e6});
+  return table;
+}
+
+}  // namespace s2s::calib

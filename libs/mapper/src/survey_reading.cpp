@@ -1,0 +1,41 @@
+#include "survey_reading.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "s2s/core/progress.h"
+#include "s2s/core/time.h"
+
+namespace s2s::mapper {
+
+namespace {
+
+/// Total length of the survey in seconds, extrapolated from the share of the file that was read.
+double expectedTotal_s(double done_s, double shareRead, const SurveyReading& reading) {
+  const double all_s = shareRead > 0 ? done_s / shareRead : 0;
+  const double end_s = reading.to_s > 0 ? std::min(reading.to_s, all_s) : all_s;
+  return std::max(done_s, end_s - reading.from_s);
+}
+
+}  // namespace
+
+void readRecords(const SurveyReading& reading, obs::RawlogReader& reader, FaultLog& faults,
+                 const std::function<void(const mrpt::obs::CObservation::Ptr&, const std::string& where)>& use) {
+  core::Progress progress(reading.progress, reading.label, 0, "s");
+  std::optional<core::TimeNs> start;
+  while (const auto observation = reader.next()) {
+    const core::TimeNs time = core::fromMrptTime(observation->timestamp);
+    if (!start) start = time;
+    const double elapsed_s = core::secondsBetween(*start, time);
+    if (elapsed_s < reading.from_s) continue;
+    if (reading.to_s >= 0 && elapsed_s > reading.to_s) break;
+    use(observation, reader.where());
+    progress.setTotal(expectedTotal_s(elapsed_s, reader.shareRead(), reading) - std::max(0.0, reading.from_s));
+    progress.update(elapsed_s - reading.from_s);
+  }
+  for (const auto& fault : reader.faults())
+    faults.add(fault.fatal() ? "reading ended early: " + fault.text : fault.text,
+               reader.path() + ", record " + std::to_string(fault.record) + ", byte " + std::to_string(fault.byte));
+}
+
+}  // namespace s2s::mapper
