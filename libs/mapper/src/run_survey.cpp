@@ -8,6 +8,7 @@
 #include "gnss_summary.h"
 #include "s2s/core/atomic_file.h"
 #include "s2s/core/error.h"
+#include "s2s/core/progress.h"
 #include "s2s/graph/graph_io.h"
 #include "s2s/mapper/prior_map_loader.h"
 #include "s2s/mapper/survey_mapper.h"

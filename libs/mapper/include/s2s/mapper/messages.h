@@ -34,6 +34,7 @@ struct KeyframeData {
 /// Progress of the odometry after one sweep.
 struct OdometryUpdate {
   std::vector<core::TimedPose> path;       ///< T_odom_vehicle at high rate since the last update
+  core::TimeNs sweepTime = 0;              ///< of the first point of the sweep
   std::shared_ptr<KeyframeData> keyframe;  ///< null if the sweep is none
   std::vector<StereoScan> stereo;          ///< points of the pairs of pings completed since the last update
   std::vector<graph::GnssFix> fixes;       ///< whose time the path has reached
