@@ -24,10 +24,11 @@ namespace s2s::mapper {
 ///     mapper.finish();
 ///     mapper.map(); mapper.trajectory(); ...
 ///
-/// Stages: odometry -> (sonar, back end), sonar -> back end. With one thread they run inside `push`, and the same
-/// observations give the same map bit for bit. With more, each stage has a thread of its own behind a bounded queue;
-/// a fast reader then waits, nothing is dropped. In real time nobody can wait: sweeps and pings that meet a full queue
-/// are dropped and counted among the faults, and latencies are measured.
+/// Stages: odometry -> (sonar, back end), sonar -> back end; the odometry waits for the images of the sonar stage,
+/// which never waits for it. With one thread they run inside `push`, and the same observations give the same map bit
+/// for bit. With more, each stage has a thread of its own behind a bounded queue; a fast reader then waits, nothing is
+/// dropped. In real time nobody can wait: sweeps and pings that meet a full queue are dropped and counted among the
+/// faults, and latencies are measured.
 class SurveyMapper {
  public:
   /// @throws core::ConfigError if the configuration contradicts itself

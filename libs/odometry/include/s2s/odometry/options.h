@@ -93,8 +93,8 @@ struct WaterOptions {
   double margin_m = 0.3;        ///< returns this little above the surface are left out, too
 };
 
-/// Registration of what the sonars see to a map of its own. It is asked only about motions that the LiDAR does not see:
-/// over open water it alone tells how the vehicle moves, between quays it changes nothing.
+/// Registration of what the sonars see to a map of its own, after the LiDAR's. Over open water it alone tells how the
+/// vehicle moves. It is left out where the sonars are blind for the very motions that the LiDAR does not see.
 struct SeabedOptions {
   bool enabled = true;
   /// One level: at a coarser one ripples would pass for a flat seabed, and it is they that tell the motion. The planes'
