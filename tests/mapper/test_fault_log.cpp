@@ -29,5 +29,14 @@ TEST(FaultLog, CountsGivenAtOnce_Add) {
   EXPECT_THAT(log.lines(), ElementsAre("gap (7 times)"));
 }
 
+TEST(FaultLog, MoreKindsThanAnybodyReads_CountAsOne) {
+  FaultLog log;
+  for (int i = 0; i < 10000; ++i) log.add("range resolution of " + std::to_string(i) + " m", "a place");
+  const auto lines = log.lines();
+  EXPECT_LE(lines.size(), 101U);
+  EXPECT_EQ(lines.front(), "range resolution of 0 m (a place)");
+  EXPECT_THAT(lines.back(), ::testing::HasSubstr("(9900 times"));
+}
+
 }  // namespace
 }  // namespace s2s::mapper

@@ -4,6 +4,14 @@
 
 namespace s2s::mapper {
 
+namespace {
+
+/// Texts that name a value may differ from record to record, and a damaged recording has millions.
+constexpr std::size_t kMostKinds = 100;
+const char* const kFurther = "further kinds of faults";
+
+}  // namespace
+
 bool FaultLog::add(const std::string& kind, const std::string& where, std::uint64_t count) {
   if (count == 0) return false;
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -12,8 +20,13 @@ bool FaultLog::add(const std::string& kind, const std::string& where, std::uint6
     known->count += count;
     return false;
   }
-  entries_.push_back({kind, where, count});
-  return true;
+  if (entries_.size() < kMostKinds) {
+    entries_.push_back({kind, where, count});
+    return true;
+  }
+  if (entries_.size() == kMostKinds) entries_.push_back({kFurther, where, 0});
+  entries_.back().count += count;
+  return false;
 }
 
 std::vector<std::string> FaultLog::lines() const {

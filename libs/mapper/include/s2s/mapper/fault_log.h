@@ -8,7 +8,8 @@
 namespace s2s::mapper {
 
 /// Counts data faults by kind and keeps where each kind was first met, so that a survey with ten thousand bad records
-/// gives one line in the log and in `summary.json`. Safe to use from several threads.
+/// gives one line in the log and in `summary.json`. A hundred kinds are told apart, all others count as one. Safe to
+/// use from several threads.
 class FaultLog {
  public:
   /// @param kind  what is wrong, the same text for all faults of a kind
