@@ -84,6 +84,36 @@ TEST_F(SensorRouterTest, TimeRunsBackwards_RecordIsDroppedAndCounted) {
   EXPECT_THAT(faults.lines(), Contains(HasSubstr("record 1")));
 }
 
+TEST_F(SensorRouterTest, OneTimeFarAhead_DropsThatRecordOnly) {
+  SensorRouter router(options, faults);
+  auto first = labelled<mrpt::obs::CObservationIMU>("IMU", 1.0);
+  auto astray = labelled<mrpt::obs::CObservationIMU>("IMU", 4e8);
+  auto next = labelled<mrpt::obs::CObservationIMU>("IMU", 1.01);
+  EXPECT_EQ(router.route(first, "0"), Role::Imu);
+  EXPECT_EQ(router.route(astray, "record 1"), Role::None);
+  EXPECT_EQ(router.route(next, "2"), Role::Imu);
+  EXPECT_EQ(router.last(), kStart + core::durationNs(1.01));
+  EXPECT_THAT(faults.lines(), Contains(HasSubstr("record 1")));
+}
+
+TEST_F(SensorRouterTest, PauseOfMinutes_IsNoJump) {
+  SensorRouter router(options, faults);
+  auto first = labelled<mrpt::obs::CObservationIMU>("IMU", 0);
+  auto later = labelled<mrpt::obs::CObservationIMU>("IMU", 1800);
+  EXPECT_EQ(router.route(first, "0"), Role::Imu);
+  EXPECT_EQ(router.route(later, "1"), Role::Imu);
+}
+
+TEST_F(SensorRouterTest, TwoSensorsWithOneLabel_AreAConfigError) {
+  options.sonarVertical.label = options.sonarHorizontal.label;
+  EXPECT_THROW(SensorRouter(options, faults), core::ConfigError);
+}
+
+TEST_F(SensorRouterTest, SoundSpeedOfNoWater_IsAConfigError) {
+  options.soundSpeed_mps = 1.48;  // km/s
+  EXPECT_THROW(SensorRouter(options, faults), core::ConfigError);
+}
+
 TEST_F(SensorRouterTest, WrongClassUnderTheLabel_IsNotUsed) {
   SensorRouter router(options, faults);
   auto imposter = labelled<mrpt::obs::CObservationIMU>("LIDAR", 0);

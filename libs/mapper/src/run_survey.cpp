@@ -24,23 +24,39 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Sleeps until a record is due; how far reading itself is behind counts as a latency.
-void waitUntilDue(Clock::time_point start, double after_s, LatencyMonitor& latencies) {
-  const auto due = start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(after_s));
-  const auto now = Clock::now();
-  latencies.add("reading behind the recorded rate", std::max(now - due, Clock::duration::zero()));
-  if (now < due) std::this_thread::sleep_until(due);
-}
+/// Hands out records at their recorded rate.
+class Pacemaker {
+ public:
+  explicit Pacemaker(LatencyMonitor& latencies) : latencies_(latencies) {}
+
+  /// Sleeps until a record is due; how far reading itself is behind counts as a latency. A record without a time, or
+  /// with one so far ahead that it will not be used, is due at once.
+  void wait(core::TimeNs time) {
+    constexpr double kLongestPause_s = 3600;
+    if (time <= 0) return;
+    if (!first_) first_ = last_ = time;
+    if (core::secondsBetween(last_, time) > kLongestPause_s) return;
+    last_ = std::max(last_, time);
+    const std::chrono::duration<double> after(core::secondsBetween(*first_, time));
+    const auto due = start_ + std::chrono::duration_cast<Clock::duration>(after);
+    const auto now = Clock::now();
+    latencies_.add("reading behind the recorded rate", std::max(now - due, Clock::duration::zero()));
+    if (now < due) std::this_thread::sleep_until(due);
+  }
+
+ private:
+  LatencyMonitor& latencies_;
+  const Clock::time_point start_ = Clock::now();
+  std::optional<core::TimeNs> first_;
+  core::TimeNs last_ = 0;
+};
 
 /// Pushes the records of the chosen part of the rawlog into the mapper, in real time if wanted.
 void readSurvey(const SurveyRun& run, obs::RawlogReader& reader, SurveyMapper& mapper) {
-  std::optional<core::TimeNs> first;
-  const auto wallStart = Clock::now();
+  Pacemaker pacemaker(mapper.latencies());
   readRecords({run.from_s, run.to_s, "Mapping", run.progress}, reader, mapper.faults(),
               [&](const mrpt::obs::CObservation::Ptr& record, const std::string& where) {
-                const core::TimeNs time = core::fromMrptTime(record->timestamp);
-                if (!first) first = time;
-                if (run.realtime) waitUntilDue(wallStart, core::secondsBetween(*first, time), mapper.latencies());
+                if (run.realtime) pacemaker.wait(core::fromMrptTime(record->timestamp));
                 mapper.push(record, where);
               });
 }

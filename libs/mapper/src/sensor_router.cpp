@@ -33,18 +33,41 @@ bool classFits(Role role, const mrpt::obs::CObservation& observation) {
   return true;
 }
 
+/// Longer silence of a sensor is not bridged.
+constexpr core::TimeNs kLongestPause = 3600 * core::kNsPerSecond;
+/// Sound is slower nowhere in fresh or salt water, and faster only under kilometres of it.
+constexpr double kLeastSoundSpeed_mps = 1300, kMostSoundSpeed_mps = 1700;
+
+using Sensors = std::array<const SensorOptions*, kRoleCount>;
+
+/// In the order of their roles.
+Sensors sensorsOf(const MapperOptions& o) { return {&o.lidar, &o.imu, &o.sonarHorizontal, &o.sonarVertical, &o.gnss}; }
+
+void check(const MapperOptions& options) {
+  const Sensors sensors = sensorsOf(options);
+  for (std::size_t i = 0; i < sensors.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (sensors[i]->label == sensors[j]->label)
+        throw core::ConfigError("two sensors have the label '" + sensors[i]->label + "'", "[mapper] label_...",
+                                "give each sensor the label of its own records");
+  const double c_mps = options.soundSpeed_mps;
+  if (c_mps != 0 && (c_mps < kLeastSoundSpeed_mps || c_mps > kMostSoundSpeed_mps))
+    throw core::ConfigError("no water has this sound speed", "[mapper] sound_speed_mps",
+                            "give 1300 to 1700 m/s, or 0 for the devices' own");
+}
+
 std::string className(const mrpt::obs::CObservation& observation) { return observation.GetRuntimeClass()->className; }
 
 }  // namespace
 
-SensorRouter::SensorRouter(const MapperOptions& options, FaultLog& faults) : options_(options), faults_(faults) {}
+SensorRouter::SensorRouter(const MapperOptions& options, FaultLog& faults) : options_(options), faults_(faults) {
+  check(options);
+}
 
 Role SensorRouter::roleOf(const std::string& label) const {
-  if (label == options_.lidar.label) return Role::Lidar;
-  if (label == options_.imu.label) return Role::Imu;
-  if (label == options_.sonarHorizontal.label) return Role::SonarHorizontal;
-  if (label == options_.sonarVertical.label) return Role::SonarVertical;
-  if (label == options_.gnss.label) return Role::Gnss;
+  const Sensors sensors = sensorsOf(options_);
+  for (std::size_t i = 0; i < sensors.size(); ++i)
+    if (label == sensors[i]->label) return static_cast<Role>(i);
   return Role::None;
 }
 
@@ -65,24 +88,31 @@ Role SensorRouter::route(mrpt::obs::CObservation& observation, const std::string
   }
   if (core::fromMrptTime(observation.timestamp) > 0) correctPing(observation, role);
   const core::TimeNs time = core::fromMrptTime(observation.timestamp);
-  if (time <= 0) {
-    faults_.add("records of '" + label + "' without a time were dropped", where);
-    return Role::None;
-  }
+  if (!timeFits(time, role, label, where)) return Role::None;
   const auto index = static_cast<std::size_t>(role);
-  if (counts_[index] > 0 && time <= lastOf_[index]) {
-    faults_.add("records of '" + label + "' whose time does not advance were dropped", where);
-    return Role::None;
-  }
-  const std::array<const SensorOptions*, kRoleCount> sensors = {
-      &options_.lidar, &options_.imu, &options_.sonarHorizontal, &options_.sonarVertical, &options_.gnss};
-  if (const auto& T = sensors[index]->T_vehicle_sensor) observation.setSensorPose(core::toPose(*T));
+  if (const auto& T = sensorsOf(options_)[index]->T_vehicle_sensor) observation.setSensorPose(core::toPose(*T));
   if (std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0}) == 0) first_ = time;
   ++counts_[index];
   lastOf_[index] = time;
   first_ = std::min(first_, time);
   last_ = std::max(last_, time);
   return role;
+}
+
+bool SensorRouter::timeFits(core::TimeNs time, Role role, const std::string& label, const std::string& where) {
+  const auto index = static_cast<std::size_t>(role);
+  const auto drop = [&](const std::string& why) {
+    faults_.add("records of '" + label + "' " + why, where);
+    return false;
+  };
+  if (time <= 0) return drop("without a time were dropped");
+  if (counts_[index] == 0) return true;
+  if (time <= lastOf_[index]) return drop("whose time does not advance were dropped");
+  if (time - lastOf_[index] > kLongestPause)
+    return drop(
+        "more than an hour after the one before were dropped: the recording paused or its clock was set; map the parts "
+        "one by one with --from and --to");
+  return true;
 }
 
 void SensorRouter::correctPing(mrpt::obs::CObservation& observation, Role role) {

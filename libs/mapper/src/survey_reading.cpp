@@ -10,6 +10,9 @@ namespace s2s::mapper {
 
 namespace {
 
+/// So many records in a row later than the part's end are its end; fewer are sensors that come early or a wrong time.
+constexpr int kRecordsBeyond = 1000;
+
 /// Total length of the survey in seconds, extrapolated from the share of the file that was read.
 double expectedTotal_s(double done_s, double shareRead, const SurveyReading& reading) {
   const double all_s = shareRead > 0 ? done_s / shareRead : 0;
@@ -23,12 +26,21 @@ void readRecords(const SurveyReading& reading, obs::RawlogReader& reader, FaultL
                  const std::function<void(const mrpt::obs::CObservation::Ptr&, const std::string& where)>& use) {
   core::Progress progress(reading.progress, reading.label, 0, "s");
   std::optional<core::TimeNs> start;
+  int beyond = 0;
   while (const auto observation = reader.next()) {
     const core::TimeNs time = core::fromMrptTime(observation->timestamp);
+    if (time <= 0) {
+      use(observation, reader.where());
+      continue;
+    }
     if (!start) start = time;
     const double elapsed_s = core::secondsBetween(*start, time);
     if (elapsed_s < reading.from_s) continue;
-    if (reading.to_s >= 0 && elapsed_s > reading.to_s) break;
+    if (reading.to_s >= 0 && elapsed_s > reading.to_s) {
+      if (++beyond == kRecordsBeyond) break;
+      continue;
+    }
+    beyond = 0;
     use(observation, reader.where());
     progress.setTotal(expectedTotal_s(elapsed_s, reader.shareRead(), reading) - std::max(0.0, reading.from_s));
     progress.update(elapsed_s - reading.from_s);

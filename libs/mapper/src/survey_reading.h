@@ -19,7 +19,8 @@ struct SurveyReading {
   std::ostream* progress = nullptr;
 };
 
-/// Hands out the records of the chosen part with their places; the reader's faults go into the log.
+/// Hands out the records of the chosen part with their places; the reader's faults go into the log. Records without a
+/// time are handed out, too: whoever uses them counts them. Single records with a wrong time do not end the part.
 void readRecords(const SurveyReading& reading, obs::RawlogReader& reader, FaultLog& faults,
                  const std::function<void(const mrpt::obs::CObservation::Ptr&, const std::string& where)>& use);
 

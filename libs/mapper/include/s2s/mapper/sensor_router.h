@@ -18,9 +18,12 @@ enum class Role : std::uint8_t { Lidar = 0, Imu = 1, SonarHorizontal = 2, SonarV
 constexpr std::size_t kRoleCount = 5;  ///< without None
 
 /// Decides by label and class what each observation is, applies the configured mountings, and drops records that would
-/// harm: without time, running backwards, or of a class that the role cannot use. Everything dropped is counted.
+/// harm: without time, running backwards, more than an hour after the sensor's last one (a clock that was set, or
+/// another survey: no motion model bridges that), or of a class that the role cannot use. Everything dropped is
+/// counted.
 class SensorRouter {
  public:
+  /// @throws core::ConfigError if two sensors have one label, or the sound speed is none
   SensorRouter(const MapperOptions& options, FaultLog& faults);
 
   /// @param observation its sensor pose is replaced when the configuration gives one; of a ping also time, ranges and
@@ -39,6 +42,7 @@ class SensorRouter {
 
  private:
   Role roleOf(const std::string& label) const;
+  bool timeFits(core::TimeNs time, Role role, const std::string& label, const std::string& where);
   /// Takes the configured time offset and sound speed into a ping.
   void correctPing(mrpt::obs::CObservation& observation, Role role);
 
