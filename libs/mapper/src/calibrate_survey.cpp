@@ -75,7 +75,7 @@ class Gatherer {
       faults_.add("unusable pings were dropped: " + e.fault());
       return;
     }
-    if (router_.count(role) == 1) describe(id, ping);
+    if (!described_[id]) describe(id, ping);
     const auto& sonar = nominal_[id];
     calib::PingEchoes echoes;
     echoes.time = core::fromMrptTime(ping.timestamp);
@@ -85,10 +85,11 @@ class Gatherer {
     pings_.push_back(std::move(echoes));
   }
 
-  /// Takes what is nominal of a sonar from its first ping and the configuration.
+  /// Takes what is nominal of a sonar from its first usable ping and the configuration.
   void describe(calib::SonarId id, const obs::CObservationImagingSonar& ping) {
     constexpr double kUsualSoundSpeed_mps = 1480;
     const bool isHorizontal = id == calib::SonarId::Horizontal;
+    described_[id] = true;
     auto& sonar = nominal_[id];
     sonar.T_vehicle_sonar = core::toIsometry(ping.sensorPose);
     sonar.timeOffset_s = isHorizontal ? config_.mapper.timeOffsetHorizontal_s : config_.mapper.timeOffsetVertical_s;
@@ -111,6 +112,7 @@ class Gatherer {
   OdometryStage odometry_;
   Worker odometryWorker_;
   calib::CalibrationState nominal_;
+  std::map<calib::SonarId, bool> described_;
   std::vector<calib::PingEchoes> pings_;
 };
 
