@@ -65,11 +65,24 @@ TEST(StereoPairer, OneSonarAlone_MakesNoPair) {
 }
 
 TEST(StereoPairer, UnusablePing_IsPassedOver) {
-  StereoPairer pairer({}, 0.04, [](core::TimeNs, core::TimeNs) { return core::Isometry::Identity(); });
+  int moved = 0;  // the vessel's motion is asked for once a pair
+  StereoPairer pairer({}, 0.04, [&moved](core::TimeNs, core::TimeNs) {
+    ++moved;
+    return core::Isometry::Identity();
+  });
   pairer.add(ping(Role::SonarHorizontal, 0, false));
   pairer.add(ping(Role::SonarVertical, 10 * kMs));
   EXPECT_TRUE(pairer.finish().empty());
-  EXPECT_EQ(pairer.pairCount(), 0U);
+  EXPECT_EQ(moved, 0);
+}
+
+TEST(StereoPairer, ImageNeverMade_IsPassedOver) {
+  StereoPairer pairer({}, 0.04, [](core::TimeNs, core::TimeNs) { return core::Isometry::Identity(); });
+  pairer.add(ping(Role::SonarHorizontal, 0));
+  PendingPing orphan{Role::SonarVertical, 10 * kMs, core::Isometry::Identity(), {}};
+  orphan.image = std::promise<std::shared_ptr<const sonar::ProcessedPing>>().get_future().share();
+  pairer.add(orphan);
+  EXPECT_NO_THROW(pairer.finish());  // else its "broken promise" would hide what failed
 }
 
 }  // namespace

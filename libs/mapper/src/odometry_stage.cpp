@@ -14,6 +14,11 @@ namespace {
 
 /// Time that the odometry's trajectory is kept for sweeps that still wait to be deskewed.
 constexpr double kTrajectoryMemory_s = 5.0;
+/// Pings and fixes wait this long for a pose (and while the odometry looks at its start): a LiDAR that is silent for
+/// longer, or a rawlog without one, must not fill the memory with them.
+constexpr double kPatience_s = 60.0;
+/// Pings are given up in portions of this.
+constexpr double kPingPortion_s = 1.0;
 
 odometry::Scan makeScan(odometry::ScanMaker& maker, const mrpt::obs::CObservation& observation) {
   if (const auto* sweep = dynamic_cast<const obs::CObservationLidarSweep*>(&observation))
@@ -66,13 +71,35 @@ void OdometryStage::addLidar(const mrpt::obs::CObservation::Ptr& observation) {
 
 void OdometryStage::addGnss(const mrpt::obs::CObservation& observation) {
   if (auto fix = gnssReader_.read(dynamic_cast<const mrpt::obs::CObservationGPS&>(observation)))
-    waitingFixes_.push_back(std::move(*fix));
+    addFix(std::move(*fix));
   else
     faults_.add("GNSS records without a valid position were not used",
                 core::formatUtc(core::fromMrptTime(observation.timestamp)));
 }
 
-void OdometryStage::addPing(PendingPing ping) { use(pairer_.add(std::move(ping))); }
+void OdometryStage::addFix(graph::GnssFix fix) {
+  const core::TimeNs oldest = fix.time - core::durationNs(kPatience_s + options_.odometry.initialisation_s);
+  waitingFixes_.push_back(std::move(fix));
+  while (waitingFixes_.front().time < oldest) waitingFixes_.pop_front();
+}
+
+void OdometryStage::addPing(PendingPing ping) {
+  const core::TimeNs time = ping.time;
+  use(pairer_.add(std::move(ping)));
+  abandonBefore(time);
+}
+
+void OdometryStage::abandonBefore(core::TimeNs newestPing) {
+  const core::TimeNs patience = core::durationNs(kPatience_s + options_.odometry.initialisation_s);
+  if (posesUntil_ == 0) posesUntil_ = newestPing;
+  if (newestPing - posesUntil_ < patience + core::durationNs(kPingPortion_s)) return;
+  posesUntil_ = newestPing - patience;
+  stereo_.erase(stereo_.begin(), std::find_if(stereo_.begin(), stereo_.end(),
+                                              [this](const StereoScan& scan) { return scan.time > posesUntil_; }));
+  OdometryUpdate update;
+  update.abandonedUntil = posesUntil_;
+  output_(std::move(update));
+}
 
 void OdometryStage::use(std::vector<StereoScan> scans) {
   for (auto& scan : scans) {
@@ -114,6 +141,7 @@ void OdometryStage::handle(const odometry::OdometryResult& result) {
     motion_.add(result);
     imuCalibration_ = result.imu;
     sweepPoses_.append(result.time, result.T_odom_vehicle);
+    posesUntil_ = std::max(posesUntil_, result.time);
     water_.add(result.time, (result.T_odom_vehicle * Eigen::Vector3d(0, 0, options_.mapper.waterline_m)).z());
     if (keyframePolicy_.accept(result.T_odom_vehicle)) update.keyframe = makeKeyframe(result, *sweep);
     update.fixes = placedFixes(result.time);

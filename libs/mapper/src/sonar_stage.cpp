@@ -8,8 +8,9 @@ namespace s2s::mapper {
 
 namespace {
 
-/// Poses this much older than the oldest waiting ping are of no more use.
-constexpr double kPoseMemory_s = 1.0;
+/// Poses this much older than the newest one and the oldest waiting ping are of no more use: a recorder may write pings
+/// so much later than sweeps.
+constexpr double kPoseMemory_s = 30.0;
 
 }  // namespace
 
@@ -22,9 +23,10 @@ void SonarStage::addPing(const Ping& ping, std::promise<std::shared_ptr<const so
   waiting.time = core::fromMrptTime(ping.observation->timestamp);
   waiting.T_vehicle_sonar = core::toIsometry(ping.observation->sensorPose);
   try {
-    waiting.ping = std::make_shared<const sonar::ProcessedPing>(
+    const auto processed = std::make_shared<const sonar::ProcessedPing>(
         (isHorizontal ? images_.horizontal() : images_.vertical()).process(*ping.observation));
-    image.set_value(waiting.ping);
+    waiting.line = processed->lineScan;
+    image.set_value(processed);
   } catch (const core::InputError& e) {
     faults_.add("unusable pings were dropped: " + e.fault(), core::formatUtc(waiting.time));
     image.set_value(nullptr);
@@ -36,6 +38,7 @@ void SonarStage::addPing(const Ping& ping, std::promise<std::shared_ptr<const so
 void SonarStage::addPoses(OdometryUpdate update) {
   for (const auto& pose : update.path) poses_.append(pose.time, pose.T);
   std::move(update.stereo.begin(), update.stereo.end(), std::back_inserter(stereo_));
+  if (update.abandonedUntil > 0) abandonUntil(update.abandonedUntil);
   advance();
 }
 
@@ -56,6 +59,14 @@ void SonarStage::advance() {
   poses_.forgetBefore(oldest - core::durationNs(kPoseMemory_s));
 }
 
+void SonarStage::abandonUntil(core::TimeNs time) {
+  for (Queue* pings : {&horizontal_, &vertical_})
+    for (; !pings->empty() && pings->front().time <= time; pings->pop_front())
+      faults_.add("pings were not placed because no LiDAR sweep had given a pose for a minute",
+                  core::formatUtc(pings->front().time));
+  while (!stereo_.empty() && stereo_.front().time <= time) stereo_.pop_front();
+}
+
 void SonarStage::placeStereo() {
   for (; !stereo_.empty() && stereo_.front().time <= poses_.back().time; stereo_.pop_front()) {
     const auto T_odom_vehicle = poses_.at(stereo_.front().time);
@@ -71,21 +82,23 @@ void SonarStage::placeStereo() {
 
 void SonarStage::placeLineScans(Queue& pings, map::Layer layer) {
   for (; !pings.empty() && pings.front().time <= poses_.back().time; pings.pop_front()) {
-    const Waiting& waiting = pings.front();
+    Waiting& waiting = pings.front();
     if (const auto T_odom_vehicle = poses_.at(waiting.time))
-      placeLineScan(waiting, layer, *T_odom_vehicle);
+      placeLineScan(std::move(waiting), layer, *T_odom_vehicle);
     else
-      faults_.add("pings before the first pose of the odometry were not placed", core::formatUtc(waiting.time));
+      faults_.add(
+          "pings before the first pose of the odometry, or long after the sweeps of their time, were not placed",
+          core::formatUtc(waiting.time));
   }
 }
 
-void SonarStage::placeLineScan(const Waiting& waiting, map::Layer layer, const core::Isometry& T_odom_vehicle) {
+void SonarStage::placeLineScan(Waiting waiting, map::Layer layer, const core::Isometry& T_odom_vehicle) {
   SonarScan scan;
   scan.layer = layer;
   scan.time = waiting.time;
   scan.T_odom_vehicle = T_odom_vehicle;
   scan.T_vehicle_sonar = waiting.T_vehicle_sonar;
-  scan.line = waiting.ping->lineScan;
+  scan.line = std::move(waiting.line);
   output_(std::move(scan));
 }
 

@@ -10,6 +10,15 @@ namespace {
 /// A vertical ping does not wait longer than this for a horizontal sonar that has fallen silent.
 constexpr double kPatience_s = 1.0;
 
+/// Waits for the image of a ping; null if there is none.
+std::shared_ptr<const sonar::ProcessedPing> imageOf(const PendingPing& ping) {
+  try {
+    return ping.image.get();
+  } catch (const std::future_error&) {
+    return nullptr;
+  }
+}
+
 }  // namespace
 
 StereoPairer::StereoPairer(const sonar::SonarOptions& options, double window_s, Motion motion)
@@ -57,12 +66,11 @@ const PendingPing* StereoPairer::nearestHorizontal(core::TimeNs time) const {
 StereoScan StereoPairer::fuse(const PendingPing& horizontal, const PendingPing& vertical) {
   StereoScan scan;
   scan.time = horizontal.time;
-  const auto h = horizontal.image.get(), v = vertical.image.get();
+  const auto h = imageOf(horizontal), v = imageOf(vertical);
   if (!h || !v) return scan;
   const core::Isometry T_h_v =
       horizontal.T_vehicle_sonar.inverse() * motion_(horizontal.time, vertical.time) * vertical.T_vehicle_sonar;
   const auto result = stereo_.process(*h, *v, T_h_v);
-  ++pairCount_;
   for (const auto& point : result.points)
     scan.points.push_back(
         {(horizontal.T_vehicle_sonar * point.p_h).cast<float>(), point.intensity, static_cast<float>(point.sigma_m())});

@@ -17,6 +17,8 @@ constexpr double kLatestImu_s = 1.0;
 constexpr double kEarly_s = 1.0;
 /// Samples are kept this much longer, as the time offset may change.
 constexpr double kImuMemory_s = 0.5;
+/// Acoustic points are kept so long (and while the start is looked at) for the scan of their time.
+constexpr double kAcousticMemory_s = 60.0;
 /// Without IMU these many scans tell the speed at the start.
 constexpr std::size_t kLidarOnlyRehearsal = 4;
 
@@ -54,7 +56,10 @@ void LidarInertialOdometry::addImu(const ImuSample& sample) {
 void LidarInertialOdometry::addScan(Scan scan) { waiting_.push_back(std::move(scan)); }
 
 void LidarInertialOdometry::addAcoustic(AcousticScan scan) {
-  if (options_.seabed.enabled) acoustic_.push_back(std::move(scan));
+  if (!options_.seabed.enabled) return;
+  const core::TimeNs oldest = scan.time - core::durationNs(kAcousticMemory_s + options_.initialisation_s);
+  acoustic_.push_back(std::move(scan));
+  while (acoustic_.front().time < oldest) acoustic_.pop_front();
 }
 
 core::Isometry LidarInertialOdometry::expectedMotion(core::TimeNs from, core::TimeNs to) const {

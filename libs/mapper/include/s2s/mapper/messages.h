@@ -31,13 +31,14 @@ struct KeyframeData {
   double waterHeight_odom_m = 0;                            ///< as estimated by then
 };
 
-/// Progress of the odometry after one sweep.
+/// Progress of the odometry after one sweep, or, where no sweep has given a pose for long, what it gave up.
 struct OdometryUpdate {
   std::vector<core::TimedPose> path;       ///< T_odom_vehicle at high rate since the last update
   core::TimeNs sweepTime = 0;              ///< of the first point of the sweep
   std::shared_ptr<KeyframeData> keyframe;  ///< null if the sweep is none
   std::vector<StereoScan> stereo;          ///< points of the pairs of pings completed since the last update
   std::vector<graph::GnssFix> fixes;       ///< whose time the path has reached
+  core::TimeNs abandonedUntil = 0;         ///< pings up to this time will not get a pose any more; 0: nothing new
 };
 
 /// What a ping, or a pair of pings, adds to the map.

@@ -46,16 +46,16 @@ class OdometryStage {
 
   /// T_odom_vehicle at the end of every sweep that has a pose.
   const core::Trajectory& sweepPoses() const { return sweepPoses_; }
-  const WaterLevel& water() const { return water_; }
   /// Origin of the frame of the GNSS fixes, once there was one.
   const std::optional<GeodeticPosition>& gnssOrigin() const { return gnssReader_.origin(); }
   std::uint64_t sweepCount() const { return sweepCount_; }
-  /// Pairs of pings that were searched for stereo points.
-  std::uint64_t pairCount() const { return pairer_.pairCount(); }
 
  private:
   void drain();
+  void addFix(graph::GnssFix fix);
   void use(std::vector<StereoScan> scans);
+  /// Gives up pings that no sweep gave a pose for long.
+  void abandonBefore(core::TimeNs newestPing);
   void handle(const odometry::OdometryResult& result);
   std::shared_ptr<KeyframeData> makeKeyframe(const odometry::OdometryResult& result,
                                              const mrpt::obs::CObservation& sweep);
@@ -76,6 +76,7 @@ class OdometryStage {
   std::deque<mrpt::obs::CObservation::Ptr> waiting_;  // sweeps whose pose is not known yet
   GnssReader gnssReader_;
   std::deque<graph::GnssFix> waitingFixes_;
+  core::TimeNs posesUntil_ = 0;  // pings up to this time have a pose or were given up; 0: none yet
   core::Trajectory sweepPoses_;
   WaterLevel water_;
   odometry::ImuCalibration imuCalibration_;  // as found so far

@@ -40,14 +40,15 @@ class SonarStage {
   struct Waiting {
     core::TimeNs time = 0;
     core::Isometry T_vehicle_sonar = core::Isometry::Identity();
-    std::shared_ptr<const sonar::ProcessedPing> ping;
+    sonar::LineScan line;
   };
   using Queue = std::deque<Waiting>;
 
   /// Places all that the odometry's path covers.
   void advance();
+  void abandonUntil(core::TimeNs time);
   void placeLineScans(Queue& pings, map::Layer layer);
-  void placeLineScan(const Waiting& waiting, map::Layer layer, const core::Isometry& T_odom_vehicle);
+  void placeLineScan(Waiting waiting, map::Layer layer, const core::Isometry& T_odom_vehicle);
   void placeStereo();
 
   FaultLog& faults_;

@@ -21,7 +21,8 @@ struct PendingPing {
   Role role = Role::SonarHorizontal;
   core::TimeNs time = 0;
   core::Isometry T_vehicle_sonar = core::Isometry::Identity();
-  std::shared_future<std::shared_ptr<const sonar::ProcessedPing>> image;  ///< null if the ping is unusable
+  /// Null if the ping is unusable; never set if the stage that makes it failed, which is told elsewhere.
+  std::shared_future<std::shared_ptr<const sonar::ProcessedPing>> image;
 };
 
 /// Points of a pair of pings, in the vehicle's frame at the horizontal one.
@@ -45,8 +46,6 @@ class StereoPairer {
   /// No ping will come any more.
   std::vector<StereoScan> finish();
 
-  std::uint64_t pairCount() const { return pairCount_; }
-
  private:
   std::vector<StereoScan> pairUntil(core::TimeNs newest);
   const PendingPing* nearestHorizontal(core::TimeNs time) const;
@@ -56,7 +55,6 @@ class StereoPairer {
   core::TimeNs window_;
   Motion motion_;
   std::deque<PendingPing> horizontal_, vertical_;
-  std::uint64_t pairCount_ = 0;
 };
 
 }  // namespace s2s::mapper
