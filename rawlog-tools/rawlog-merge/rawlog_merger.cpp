@@ -15,10 +15,20 @@ namespace s2s::tools::merge {
 
 namespace {
 
+/// A record further ahead than this of the one behind it in its file has a damaged time.
+constexpr core::TimeNs kFarAhead = 3600 * core::kNsPerSecond;
+
 /// Half of what the type holds, some 146 years around 1970; MRPT's invalid time is beyond.
 constexpr core::TimeNs kFarthest = std::numeric_limits<core::TimeNs>::max() / 2;
 
-/// One input and its next observation.
+/// An observation and where it stands.
+struct Record {
+  mrpt::obs::CObservation::Ptr observation;  ///< null behind the end
+  core::TimeNs time = 0;
+  std::string where;
+};
+
+/// One input and its next two observations.
 struct Input {
   Input(const std::string& path, core::TimeNs shift) : reader(path), offset_ns(shift) {
     std::error_code ignored;
@@ -27,8 +37,7 @@ struct Input {
   obs::RawlogReader reader;
   core::TimeNs offset_ns;
   double megabytes = 0;
-  mrpt::obs::CObservation::Ptr head;
-  core::TimeNs headTime = 0;
+  Record head, behind;
 };
 
 /// "mrpt::obs::CObservationGPS" without its namespaces.
@@ -58,7 +67,10 @@ class Merger {
     for (const auto& input : inputs_) megabytes += input->megabytes;
     core::Progress progress(progressStream, "merging", megabytes, "MB");
     obs::RawlogWriter writer(options_.output, {options_.gzLevel, options_.reorderWindow_s});
-    for (auto& input : inputs_) advance(*input);
+    for (auto& input : inputs_) {
+      input->behind = read(*input);
+      advance(*input);
+    }
     while (Input* input = earliest()) {
       write(*input, writer);
       advance(*input);
@@ -72,27 +84,42 @@ class Merger {
 
  private:
   /// Reads on to the input's next observation that has a time.
-  void advance(Input& input) {
-    while ((input.head = input.reader.next())) {
-      const core::TimeNs time = core::fromMrptTime(input.head->timestamp);
+  Record read(Input& input) {
+    Record record;
+    while ((record.observation = input.reader.next())) {
+      const core::TimeNs time = core::fromMrptTime(record.observation->timestamp);
       if (std::abs(time) < kFarthest && std::abs(input.offset_ns) < kFarthest) {
-        input.headTime = time + input.offset_ns;
-        input.head->timestamp = core::toMrptTime(input.headTime);
-        return;
+        record.time = time + input.offset_ns;
+        record.observation->timestamp = core::toMrptTime(record.time);
+        record.where = input.reader.where();
+        break;
       }
       report_.addSkipped("records without a usable time", input.reader.where());
+    }
+    return record;
+  }
+
+  /// To the next observation. One whose time is far ahead would be written after all others, and what stands behind it
+  /// in its file would be too late.
+  void advance(Input& input) {
+    for (;;) {
+      input.head = std::move(input.behind);
+      if (!input.head.observation) return;
+      input.behind = read(input);
+      if (!input.behind.observation || input.head.time - input.behind.time <= kFarAhead) return;
+      report_.addSkipped("records more than an hour ahead of the one behind them", input.head.where);
     }
   }
 
   Input* earliest() {
     Input* best = nullptr;
     for (auto& input : inputs_)
-      if (input->head && (!best || input->headTime < best->headTime)) best = input.get();
+      if (input->head.observation && (!best || input->head.time < best->head.time)) best = input.get();
     return best;
   }
 
   void write(Input& input, obs::RawlogWriter& writer) {
-    auto& observation = *input.head;
+    auto& observation = *input.head.observation;
     relabel(observation);
     const auto pose = options_.T_vehicle_sensor.find(observation.sensorLabel);
     if (pose != options_.T_vehicle_sensor.end()) {
@@ -100,12 +127,12 @@ class Merger {
       used_.insert(pose->first);
     }
     try {
-      writer.write(input.head);
+      writer.write(input.head.observation);
       report_.addRead("observations of " + observation.sensorLabel);
     } catch (const core::InputError& e) {
       report_.addSkipped("records that are out of order by more than " +
                              core::formatDuration(options_.reorderWindow_s) + " (see --window)",
-                         input.reader.where());
+                         input.head.where);
     }
   }
 

@@ -90,6 +90,20 @@ TEST_F(RawlogMerge, OutOfOrderBeyondTheWindow_IsSkippedAndCounted) {
   EXPECT_THAT(report.text(), HasSubstr("1 records that are out of order by more than 200 ms"));
 }
 
+TEST_F(RawlogMerge, TimeFarAhead_CostsOnlyItsOwnRecord) {
+  input("a", "A", {0, 10, 365LL * 86'400'000, 20, 30});
+  input("b", "B", {15, 25});
+  const auto report = mergeRawlogs(options_);
+  EXPECT_THAT(output(), ElementsAre("A 0", "A 10", "B 15", "A 20", "B 25", "A 30"));
+  EXPECT_EQ(report.skippedCount("records more than an hour ahead of the one behind them"), 1u);
+}
+
+TEST_F(RawlogMerge, PauseOfDays_IsKept) {
+  input("a", "A", {0, 2 * 86'400'000LL, 2 * 86'400'000LL + 10});
+  mergeRawlogs(options_);
+  EXPECT_THAT(output(), ElementsAre("A 0", "A 172800000", "A 172800010"));
+}
+
 TEST_F(RawlogMerge, LabelsAndPoses_AreChanged) {
   input("a", "A", {0});
   input("b", "B", {1});
