@@ -141,7 +141,11 @@ obs::CObservationLidarSweep::Ptr SweepBuilder::finish() {
   } else {
     sweep->columnValid.clear();
   }
-  sweep->timestamp = core::toMrptTime(columnTime_ns_.front() + timeOffset_ns_);
+  // Of a window that spans column 0 the turn may begin with the window's first column and not with column 0.
+  const bool spansZero = metadata_.firstColumn > metadata_.lastColumn;
+  const std::int64_t first_ns =
+      spansZero ? *std::min_element(columnTime_ns_.begin(), columnTime_ns_.end()) : columnTime_ns_.front();
+  sweep->timestamp = core::toMrptTime(first_ns + timeOffset_ns_);
   const std::int64_t start_ns =
       core::fromMrptTime(sweep->timestamp) - timeOffset_ns_;  // a whole tick, so times stay exact
   for (const std::int64_t time_ns : columnTime_ns_)

@@ -7,6 +7,7 @@
 #include <mrpt/opengl/CSetOfObjects.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <sstream>
@@ -50,11 +51,18 @@ TEST(LidarSweep, PixelTime_AddsColumnAndRow) {
   EXPECT_EQ(sweep->duration_s(), 0);
 }
 
+TEST(LidarSweep, ColumnsStoredAgainstTime_LastAsLong) {
+  const auto sweep = test::sampleSweep();
+  const double duration_s = sweep->duration_s();
+  std::reverse(sweep->columnTime_ns.begin(), sweep->columnTime_ns.end());
+  EXPECT_EQ(sweep->duration_s(), duration_s) << "a negative one would put the sweep's end before its start";
+}
+
 TEST(LidarSweep, Counts_AreOfTheFirstEcho) {
   const auto sweep = test::sampleSweep();
   EXPECT_EQ(sweep->pixelCount(), 6u);
   EXPECT_EQ(sweep->returnCount(), 5u);
-  EXPECT_DOUBLE_EQ(sweep->duration_s(), 0.06);
+  EXPECT_DOUBLE_EQ(sweep->duration_s(), 0.06000025);
   EXPECT_FALSE(sweep->isColumnValid(1));
   sweep->columnValid.clear();
   EXPECT_TRUE(sweep->isColumnValid(1));

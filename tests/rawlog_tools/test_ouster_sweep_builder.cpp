@@ -225,3 +225,16 @@ TEST_F(SweepBuilderTest, WindowThatSpansColumn0_KeepsTheWholeTurn) {
   EXPECT_TRUE(sweeps_[0]->isColumnValid(31));
   EXPECT_FALSE(sweeps_[0]->isColumnValid(8));
 }
+
+TEST_F(SweepBuilderTest, WindowThatSpansColumn0_BeginsWithItsEarliestColumn) {
+  metadata_.firstColumn = 24;
+  metadata_.lastColumn = 7;
+  maker_.valid = [](std::uint32_t column) { return column >= 24 || column <= 7; };
+  maker_.time = [](std::uint32_t column) { return 7'000'000'000u + 1'000'000u * ((column + 8) % 32); };
+  SweepBuilder builder(metadata_, format_, kOffset, true);
+  addFrame(builder, 10, {3, 0});
+  finish(builder);
+  EXPECT_EQ(core::fromMrptTime(sweeps_.at(0)->timestamp), kOffset + 7'000'000'000);
+  EXPECT_EQ(sweeps_[0]->columnTime_ns[24], 0);
+  EXPECT_EQ(sweeps_[0]->columnTime_ns[7], 15'000'000);
+}

@@ -2,6 +2,7 @@
 
 #include <mrpt/serialization/CArchive.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 
@@ -69,7 +70,12 @@ std::int32_t CObservationLidarSweep::pixelTime_ns(std::size_t row, std::size_t c
 }
 
 double CObservationLidarSweep::duration_s() const {
-  return columnTime_ns.empty() ? 0 : 1e-9 * (columnTime_ns.back() - columnTime_ns.front());
+  const auto span_ns = [](const std::vector<std::int32_t>& times_ns) -> std::int64_t {
+    if (times_ns.empty()) return 0;
+    const auto [first, last] = std::minmax_element(times_ns.begin(), times_ns.end());
+    return std::int64_t{*last} - *first;
+  };
+  return 1e-9 * static_cast<double>(span_ns(columnTime_ns) + span_ns(rowTime_ns));
 }
 
 std::size_t CObservationLidarSweep::returnCount() const {
@@ -115,7 +121,7 @@ void CObservationLidarSweep::getDescriptionAsText(std::ostream& o) const {
     << echoes.size() << " echo(es)\n";
   o << "  returns:          " << returnCount() << " of " << pixelCount() << "\n";
   o << "  range resolution: " << 1e3 * rangeResolution_m << " mm\n";
-  o << "  duration:         " << 1e3 * duration_s() << " ms from the first to the last column\n";
+  o << "  duration:         " << 1e3 * duration_s() << " ms from the first to the last pixel\n";
   if (!beamAltitude_rad.empty())
     o << "  beam altitudes:   " << beamAltitude_rad.front() * 180 / M_PI << " to "
       << beamAltitude_rad.back() * 180 / M_PI << " deg\n";

@@ -26,7 +26,7 @@ namespace s2s::obs {
 ///     p_sensor = T_sensor_lidar p_lidar
 /// as in Ouster's manual and SDK; sensors whose beams share one origin have a = b = 0.
 ///
-/// `timestamp` is the first column's time (UTC). `sensorPose` is T_vehicle_sensor.
+/// `timestamp` is the earliest column's time (UTC). `sensorPose` is T_vehicle_sensor.
 class CObservationLidarSweep : public mrpt::obs::CObservation, public mrpt::opengl::Visualizable {
   DEFINE_SERIALIZABLE(CObservationLidarSweep, s2s::obs)
 
@@ -62,13 +62,13 @@ class CObservationLidarSweep : public mrpt::obs::CObservation, public mrpt::open
   std::vector<std::int32_t> rowTime_ns;     ///< added to the column's time; empty means zero (all beams fire together)
   std::vector<std::uint8_t> columnValid;    ///< one a column; empty: all valid. An invalid column was not received.
 
-  double deviceTime_s = -1;  ///< device clock at the first column; negative if `timestamp` is already that clock
+  double deviceTime_s = -1;  ///< device clock at `timestamp`; negative if `timestamp` is already that clock
   std::uint32_t frameId = 0;
 
   std::size_t pixelCount() const { return static_cast<std::size_t>(rowCount) * columnCount; }
   /// Time of a pixel in nanoseconds from `timestamp`.
   std::int32_t pixelTime_ns(std::size_t row, std::size_t column) const;
-  /// From the first to the last column's time, in seconds.
+  /// From the earliest to the latest pixel, in seconds; columns may be stored in any order of time.
   double duration_s() const;
   bool isColumnValid(std::size_t column) const { return columnValid.empty() || columnValid[column] != 0; }
   /// Pixels of the first echo with a return.
