@@ -121,7 +121,7 @@ TEST(NamedPoints, File_IsReadWithAndWithoutSigma) {
   EXPECT_EQ(points[0].id, "cp1");
   EXPECT_EQ(points[0].position, Eigen::Vector3d(1.5, -2, 30));
   EXPECT_EQ(points[0].sigma_m, 0.011);
-  EXPECT_EQ(readNamedPoints(folder.write("p.csv", "id,x,y,z\r\n7,0,0,0\r\n"))[0].id, "7");
+  EXPECT_EQ(readNamedPoints(folder.write("p.csv", "\xEF\xBB\xBFid,x,y,z\r\n7,0,0,0\r\n"))[0].id, "7") << "from Excel";
 }
 
 TEST(NamedPoints, DamagedFiles_AreRefusedWithFileAndLine) {

@@ -142,6 +142,8 @@ TEST(MeshFile, PlyAsciiAndBinary_GiveTheSameMesh) {
   EXPECT_EQ(a.triangles, b.triangles);
   write(folder.file("cut.ply"), binary.substr(0, binary.size() - 5));
   EXPECT_THROW(sim::loadMesh(folder.file("cut.ply")), core::InputError);
+  write(folder.file("damaged.ply"), "ply\nformat ascii 1.0\n" + counts + "0 0 0\n1 0 0\n0 2.5 0\n-3 0 1 2\n");
+  EXPECT_THROW(sim::loadMesh(folder.file("damaged.ply")), core::InputError);
 }
 
 TEST(MeshFile, MissingUnknownOrDamaged_IsRefused) {

@@ -10,6 +10,9 @@ namespace s2s::eval {
 
 namespace {
 
+/// What spreadsheets put before the first line of a table that they save as UTF-8.
+const std::string kByteOrderMark = "\xEF\xBB\xBF";
+
 std::string trimmed(const std::string& text) {
   const auto first = text.find_first_not_of(" \t\r");
   if (first == std::string::npos) return {};
@@ -43,6 +46,8 @@ CsvTable CsvTable::load(const std::string& path, const std::vector<std::string>&
   table.path_ = path;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
+    if (number == 1 && line.compare(0, kByteOrderMark.size(), kByteOrderMark) == 0)
+      line.erase(0, kByteOrderMark.size());
     const std::string content = trimmed(line);
     if (content.empty() || content.front() == '#') continue;
     std::vector<std::string> values = split(content);

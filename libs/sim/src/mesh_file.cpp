@@ -49,6 +49,9 @@ TriangleMesh loadObj(std::istream& in, const std::string& path) {
   return mesh;
 }
 
+/// Corners of a face, or entries of another list; a longer one is damage and would take all memory.
+constexpr double kMostCorners = 1e6;
+
 struct PlyProperty {
   std::string name, type, countType;  // countType is set for lists
 };
@@ -129,8 +132,9 @@ TriangleMesh loadPly(std::istream& in, const std::string& path) {
           if (property.name == "z") p.z() = value;
           continue;
         }
-        std::vector<std::int64_t> corners(
-            static_cast<std::size_t>(readPlyValue(in, header.binary, property.countType, path)));
+        const double count = readPlyValue(in, header.binary, property.countType, path);
+        if (!(count >= 0 && count <= kMostCorners)) refuse("a list of the file has an impossible length", path);
+        std::vector<std::int64_t> corners(static_cast<std::size_t>(count));
         for (auto& c : corners) c = static_cast<std::int64_t>(readPlyValue(in, header.binary, property.type, path));
         if (!in) refuse("the file ends too early", path);
         if (element.name == "face" && property.name.rfind("vertex_ind", 0) == 0)
