@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "leading_edge_scene.h"
-#include "s2s/map/CSeabedSkyMap.h"
+#include "map_points.h"
 
 namespace {
 
@@ -24,12 +24,6 @@ MapOptions withElevation(LineElevation elevation) {
   options.insertion.lineElevation = elevation;
   options.insertion.lidarVoxel_m = 0;
   return options;
-}
-
-std::vector<MapPoint> pointsOf(const CSeabedSkyMap& map, Layer layer) {
-  std::vector<MapPoint> points;
-  map.forEachPoint(layer, [&points](const MapPoint& p) { points.push_back(p); });
-  return points;
 }
 
 /// Heights of a layer's points over the level seabed.
@@ -150,14 +144,15 @@ void addCanal(LeadingEdgeScene& scene) {
   scene.add({-Eigen::Vector3d::UnitY(), -kWall_m, [](const Eigen::Vector3d& p) { return p.z() < 2; }});
 }
 
-void insertLidarWall(CSeabedSkyMap& map) {
+/// @param origin_m height of the vehicle's origin above the water
+void insertLidarWall(CSeabedSkyMap& map, float origin_m = 0) {
   std::vector<ScanPoint> points;
   std::mt19937 random(3);
   std::normal_distribution<float> noise(0, 0.02f);
   for (float x = -8; x <= 14; x += 0.1f)
     for (float z = 0.1f; z <= 2; z += 0.1f)
-      points.push_back({{x, static_cast<float>(kWall_m) + noise(random), z}, 1, 0.02f});
-  map.insertScan(Layer::Lidar, 0, Isometry::Identity(), points);
+      points.push_back({{x, static_cast<float>(kWall_m) + noise(random), z - origin_m}, 1, 0.02f});
+  map.insertScan(Layer::Lidar, 0, isometryFromXyzYpr(0, 0, origin_m, 0, 0, 0), points);
 }
 
 /// Distances from the wall of the points that are nearer to it than to the seabed, positive on the water's side.
@@ -189,6 +184,20 @@ TEST(LineScanResolver, WallSeenObliquely_LiesWhereTheLidarSawIt) {
     EXPECT_LT(std::abs(mean(errors)), std::abs(mean(zeroErrors)));
     EXPECT_LT(quantileOfSize(errors, 0.9), 0.06);
   }
+}
+
+TEST(LineScanResolver, VehicleOriginOnDeck_WallsAboveTheWaterStillTell) {
+  Survey survey;
+  survey.T_start = isometryFromXyzYpr(0, 0, 0, 20 * kDegree, 0, 0);
+  survey.duration_s = 1;
+  survey.withVertical = false;
+  addCanal(survey.scene);
+  MapOptions options = withElevation(LineElevation::Resolved);
+  options.waterline_m = -2.5;
+  CSeabedSkyMap map(options);
+  insertLidarWall(map, 2.5f);
+  survey.run(map);
+  EXPECT_GT(map.elevationSources(Layer::LineHorizontal)[static_cast<std::size_t>(ElevationSource::Wall)], 50u);
 }
 
 TEST(LineScanResolver, SeabedMetJustBeforeAWall_IsNotPulledOntoTheWall) {

@@ -10,7 +10,8 @@
 #include <random>
 
 #include "lidar_scene.h"
-#include "s2s/map/CSeabedSkyMap.h"
+#include "map_points.h"
+#include "s2s/map/sonar_scans.h"
 #include "s2s/obs/CObservationImagingSonar.h"
 #include "s2s/sonar/ping_geometry.h"
 
@@ -20,29 +21,18 @@ using namespace s2s::map;
 using s2s::core::Isometry;
 using s2s::core::isometryFromXyzYpr;
 using s2s::core::toPose;
-
-CSeabedSkyMap unthinnedMap() {
-  MapOptions options;
-  options.insertion.lidarVoxel_m = 0;
-  options.insertion.lidarMinRange_m = 0;
-  return CSeabedSkyMap(options);
-}
-
-std::vector<MapPoint> lidarPoints(const CSeabedSkyMap& map) {
-  std::vector<MapPoint> points;
-  map.forEachPoint(Layer::Lidar, [&points](const MapPoint& p) { points.push_back(p); });
-  return points;
-}
+using s2s::test::keepAll;
+using s2s::test::pointsOf;
 
 const Isometry kRobot = isometryFromXyzYpr(2, -1, 0.5, 0.3, 0.05, -0.02);
 const Isometry kSensor = isometryFromXyzYpr(0.4, 0.1, 1.2, 0.1, 0, 0);
 
 TEST(MapInsertion, LidarSweep_PointsLieOnTheRoom) {
-  CSeabedSkyMap map = unthinnedMap();
+  CSeabedSkyMap map(keepAll());
   const auto sweep = s2s::test::sweepInRoom(kRobot, kSensor);
   ASSERT_TRUE(map.insertObservation(*sweep, toPose(kRobot)));
   EXPECT_EQ(map.pointCount(Layer::Lidar), sweep->returnCount());
-  for (const MapPoint& p : lidarPoints(map)) {
+  for (const MapPoint& p : pointsOf(map, Layer::Lidar)) {
     const double toBox = std::min({std::abs(std::abs(p.p_map.x()) - 10), std::abs(std::abs(p.p_map.y()) - 6),
                                    std::abs(p.p_map.z() + 2), std::abs(p.p_map.z() - 6)});
     const double toPillar = std::abs((p.p_map.head<2>() - Eigen::Vector2d(4, 3)).norm() - 0.5);
@@ -55,7 +45,7 @@ TEST(MapInsertion, LidarSweep_PointsLieOnTheRoom) {
 }
 
 TEST(MapInsertion, InvalidColumnsAndMissingReturns_AreLeftOut) {
-  CSeabedSkyMap map = unthinnedMap();
+  CSeabedSkyMap map(keepAll());
   const auto sweep = s2s::test::sweepInRoom(kRobot, kSensor);
   sweep->columnValid.assign(256, 1);
   sweep->columnValid[5] = 0;
@@ -65,31 +55,31 @@ TEST(MapInsertion, InvalidColumnsAndMissingReturns_AreLeftOut) {
 }
 
 TEST(MapInsertion, PointCloud_IsPlacedBySensorPoseAndKeepsIntensity) {
-  CSeabedSkyMap map = unthinnedMap();
+  CSeabedSkyMap map(keepAll());
   mrpt::obs::CObservationPointCloud cloud;
   auto points = mrpt::maps::CPointsMapXYZI::Create();
   points->insertPointRGB(1, 2, 3, 0.25f, 0, 0);
   cloud.pointcloud = points;
   cloud.sensorPose = toPose(kSensor);
   ASSERT_TRUE(map.insertObservation(cloud, toPose(kRobot)));
-  const auto stored = lidarPoints(map);
+  const auto stored = pointsOf(map, Layer::Lidar);
   ASSERT_EQ(stored.size(), 1u);
   EXPECT_LT((stored[0].p_map - kRobot * kSensor * Eigen::Vector3d(1, 2, 3)).norm(), 1e-6);  // single precision
   EXPECT_EQ(stored[0].intensity, 0.25f);
 }
 
 TEST(MapInsertion, PointCloudWithoutIntensityOrPose_IsTaken) {
-  CSeabedSkyMap map = unthinnedMap();
+  CSeabedSkyMap map(keepAll());
   mrpt::obs::CObservationPointCloud cloud;
   auto points = mrpt::maps::CSimplePointsMap::Create();
   points->insertPoint(1, 2, 3);
   cloud.pointcloud = points;
   ASSERT_TRUE(map.insertObservation(cloud));
-  EXPECT_LT((lidarPoints(map).at(0).p_map - Eigen::Vector3d(1, 2, 3)).norm(), 1e-6);
+  EXPECT_LT((pointsOf(map, Layer::Lidar).at(0).p_map - Eigen::Vector3d(1, 2, 3)).norm(), 1e-6);
 }
 
 TEST(MapInsertion, PlanarScan_IsTakenThroughMrpt) {
-  CSeabedSkyMap map = unthinnedMap();
+  CSeabedSkyMap map(keepAll());
   mrpt::obs::CObservation2DRangeScan scan;
   scan.aperture = static_cast<float>(M_PI);
   scan.maxRange = 80;
@@ -101,11 +91,11 @@ TEST(MapInsertion, PlanarScan_IsTakenThroughMrpt) {
   scan.sensorPose = toPose(kSensor);
   ASSERT_TRUE(map.insertObservation(scan, toPose(kRobot)));
   ASSERT_EQ(map.pointCount(), 3u);
-  EXPECT_LT((lidarPoints(map)[1].p_map - kRobot * kSensor * Eigen::Vector3d(5, 0, 0)).norm(), 1e-4);
+  EXPECT_LT((pointsOf(map, Layer::Lidar)[1].p_map - kRobot * kSensor * Eigen::Vector3d(5, 0, 0)).norm(), 1e-4);
 }
 
 TEST(MapInsertion, DepthCamera_IsTakenThroughMrpt) {
-  CSeabedSkyMap map = unthinnedMap();
+  CSeabedSkyMap map(keepAll());
   mrpt::obs::CObservation3DRangeScan scan;
   scan.hasPoints3D = true;
   scan.resizePoints3DVectors(2);
@@ -115,11 +105,11 @@ TEST(MapInsertion, DepthCamera_IsTakenThroughMrpt) {
   scan.sensorPose = toPose(kSensor);
   ASSERT_TRUE(map.insertObservation(scan, toPose(kRobot)));
   ASSERT_EQ(map.pointCount(), 2u);
-  EXPECT_LT((lidarPoints(map)[0].p_map - kRobot * kSensor * Eigen::Vector3d(4, 1, 0.5)).norm(), 1e-4);
+  EXPECT_LT((pointsOf(map, Layer::Lidar)[0].p_map - kRobot * kSensor * Eigen::Vector3d(4, 1, 0.5)).norm(), 1e-4);
 }
 
 TEST(MapInsertion, VelodyneCloud_IsTakenThroughMrpt) {
-  CSeabedSkyMap map = unthinnedMap();
+  CSeabedSkyMap map(keepAll());
   mrpt::obs::CObservationVelodyneScan scan;
   scan.point_cloud.x = {6};
   scan.point_cloud.y = {1};
@@ -127,7 +117,7 @@ TEST(MapInsertion, VelodyneCloud_IsTakenThroughMrpt) {
   scan.point_cloud.intensity = {9};
   scan.sensorPose = toPose(kSensor);
   ASSERT_TRUE(map.insertObservation(scan, toPose(kRobot)));
-  EXPECT_LT((lidarPoints(map).at(0).p_map - kRobot * kSensor * Eigen::Vector3d(6, 1, 2)).norm(), 1e-4);
+  EXPECT_LT((pointsOf(map, Layer::Lidar).at(0).p_map - kRobot * kSensor * Eigen::Vector3d(6, 1, 2)).norm(), 1e-4);
 }
 
 /// A ping with one bright spot of three beams by five bins, in front of it nothing.
@@ -165,6 +155,18 @@ TEST(MapInsertion, SonarPings_BecomeLineScansByTheirMounting) {
       EXPECT_NEAR(std::atan2(p_sonar.y(), p_sonar.x()), (20 - 31.5) * 0.01, 0.0101);  // one of three beams
     });
   }
+}
+
+TEST(MapInsertion, RollTellsTheSonarsApart_WhateverWayTheyLook) {
+  const double pitch = M_PI / 4;
+  for (const double yaw : {-3.0, -M_PI / 2, -0.7, 0.0, 0.7, M_PI / 2, 3.0}) {
+    EXPECT_FALSE(isVerticalSonar(isometryFromXyzYpr(0, 0, 0, yaw, pitch, 0))) << yaw;
+    EXPECT_FALSE(isVerticalSonar(isometryFromXyzYpr(0, 0, 0, yaw, pitch, M_PI))) << yaw;  // upside down
+    EXPECT_TRUE(isVerticalSonar(isometryFromXyzYpr(0, 0, 0, yaw, pitch, M_PI / 2))) << yaw;
+  }
+  // Straight down there is no roll: the fan of the horizontal one lies across the vessel.
+  EXPECT_FALSE(isVerticalSonar(isometryFromXyzYpr(0, 0, 0, 0, M_PI / 2, 0)));
+  EXPECT_TRUE(isVerticalSonar(isometryFromXyzYpr(0, 0, 0, 0, M_PI / 2, M_PI / 2)));
 }
 
 /// Rubble within 0.3 m of a place, painted into a ping of the sonar; the same rubble for every sonar.
@@ -239,16 +241,16 @@ TEST(MapInsertion, ObservationWithoutPoints_IsRefused) {
 }
 
 TEST(MapInsertion, EachInsertion_IsAKeyframeOfItsOwn) {
-  CSeabedSkyMap map = unthinnedMap();
+  CSeabedSkyMap map(keepAll());
   // The same time twice, at different places, as a simple map may hold it: nothing may be interpolated between them.
   for (int i = 0; i < 3; ++i) {
     const Isometry T = isometryFromXyzYpr(i, 0, 0, 0, 0, 0);
     map.insertObservation(*s2s::test::sweepInRoom(T, kSensor), toPose(T));
   }
   ASSERT_EQ(map.keyframes().size(), 3u);
-  const auto before = lidarPoints(map);
+  const auto before = pointsOf(map, Layer::Lidar);
   map.setKeyframePoses({{map.keyframes()[1].id, isometryFromXyzYpr(1, 0, 100, 0, 0, 0)}});
-  const auto after = lidarPoints(map);
+  const auto after = pointsOf(map, Layer::Lidar);
   std::size_t lifted = 0;
   for (std::size_t i = 0; i < after.size(); ++i)
     if (std::abs(after[i].p_map.z() - before[i].p_map.z() - 100) < 1e-9) ++lifted;

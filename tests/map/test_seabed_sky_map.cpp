@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "s2s/map/CSeabedSkyMap.h"
+#include "map_points.h"
 
 namespace {
 
@@ -11,19 +11,8 @@ using namespace s2s::map;
 using s2s::core::durationNs;
 using s2s::core::Isometry;
 using s2s::core::isometryFromXyzYpr;
-
-MapOptions keepAll() {
-  MapOptions options;
-  options.insertion.lidarVoxel_m = 0;
-  options.insertion.lidarMinRange_m = 0;
-  return options;
-}
-
-std::vector<MapPoint> pointsOf(const CSeabedSkyMap& map, Layer layer) {
-  std::vector<MapPoint> points;
-  map.forEachPoint(layer, [&points](const MapPoint& p) { points.push_back(p); });
-  return points;
-}
+using s2s::test::keepAll;
+using s2s::test::pointsOf;
 
 TEST(CSeabedSkyMap, InsertedScan_ComesBackAtItsPlaceWithAllItCarries) {
   CSeabedSkyMap map(keepAll());
@@ -115,12 +104,11 @@ TEST(CSeabedSkyMap, RepeatedSweeps_AreThinnedToTheVoxel) {
 }
 
 TEST(CSeabedSkyMap, TenMillionPoints_TakeSixteenBytesEach) {
-  CSeabedSkyMap map(keepAll());
   std::vector<ScanPoint> sweep(100000);
   for (std::size_t i = 0; i < sweep.size(); ++i) sweep[i].p_vehicle.x() = static_cast<float>(i);
   MapOptions options = keepAll();
   options.insertion.lidarMaxRange_m = 1e9;
-  map.setOptions(options);
+  CSeabedSkyMap map(options);
   for (int i = 0; i < 100; ++i) map.insertScan(Layer::Lidar, i, Isometry::Identity(), sweep);
   ASSERT_EQ(map.pointCount(), 10'000'000u);
   // Packed points are 16 bytes; the scan's own record, some 200 bytes, is shared by its 100 000 points.
@@ -158,15 +146,6 @@ TEST(CSeabedSkyMap, Clear_LeavesNothing) {
   EXPECT_TRUE(map.isEmpty());
   EXPECT_TRUE(map.keyframes().empty());
   EXPECT_FALSE(map.boundingBox());
-}
-
-TEST(CSeabedSkyMap, AsPointsMap_KeepsIntensities) {
-  CSeabedSkyMap map(keepAll());
-  map.insertScan(Layer::Lidar, 0, Isometry::Identity(), {{{1, 2, 3}, 77, 0}});
-  const auto cloud = map.getAsPointsMap(Layer::Lidar);
-  ASSERT_EQ(cloud->size(), 1u);
-  EXPECT_EQ(cloud->getPointIntensity(0), 77);
-  EXPECT_EQ(cloud->getPointsBufferRef_z()[0], 3);
 }
 
 }  // namespace

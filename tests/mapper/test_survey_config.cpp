@@ -54,6 +54,10 @@ TEST_F(SurveyConfigText, MisspelledKey_ErrorNamesTheNearest) {
   }
 }
 
+TEST_F(SurveyConfigText, Waterline_IsToldToTheMapToo) {
+  EXPECT_EQ(loadSurveyConfig(write("[mapper]\nwaterline_m = -1.9\n")).map.waterline_m, -1.9);
+}
+
 TEST_F(SurveyConfigText, Override_ReplacesTheFilesValue) {
   const auto path = write("[sonar.vertical.leading_edge]\nthreshold = 100\n");
   const auto config = loadSurveyConfig(path, {"sonar.vertical.leading_edge.threshold=90"});

@@ -49,7 +49,7 @@ GridQuality measureGrid(const MapFolder& map, const products::HeightGrid& grid, 
   quality.sigma_m = summarise(std::move(sigmas_m));
   quality.holidays = countHolidays(grid);
   PassComparison passes(grid, options.passes);
-  for (const map::Layer layer : {map::Layer::Stereo, map::Layer::LineHorizontal, map::Layer::LineVertical})
+  for (const map::Layer layer : map::kSonarLayers)
     if (const auto file = map.layerFile(layer))
       products::forEachPlyPoint(*file, [&](const products::PlyPoint& point) { passes.add(point.p, point.time_s); });
   quality.passes = passes.result();

@@ -45,11 +45,6 @@ CSeabedSkyMap& CSeabedSkyMap::operator=(const CSeabedSkyMap& other) {
   return *this;
 }
 
-void CSeabedSkyMap::setOptions(const MapOptions& options) {
-  options_ = options;
-  touch();
-}
-
 bool CSeabedSkyMap::addKeyframe(const Keyframe& keyframe) {
   touch();
   return keyframes_.add(keyframe);
@@ -148,7 +143,8 @@ void CSeabedSkyMap::gatherEvidence(const StoredScan& scan) {
     const Eigen::Vector3d p_map = T_map_vehicle * point.p_vehicle.cast<double>();
     if (scan.pose.layer == Layer::Stereo)
       resolver_.addStereoPoint(p_map, point.sigma_m);
-    else if (point.p_vehicle.z() >= 0 && point.p_vehicle.z() <= options_.resolver.lidarWallBand_m &&
+    else if (point.p_vehicle.z() >= options_.waterline_m &&
+             point.p_vehicle.z() <= options_.waterline_m + options_.resolver.lidarWallBand_m &&
              point.p_vehicle.head<2>().squaredNorm() <= reach2)
       resolver_.addWallPoint(p_map);
   }
@@ -283,16 +279,6 @@ std::size_t CSeabedSkyMap::memory_bytes() const {
   for (const StoredScan& scan : scans_) bytes += scan.points.capacity() * sizeof(PackedPoint);
   for (const StoredLineScan& scan : lineScans_) bytes += scan.returns.capacity() * sizeof(PackedReturn);
   return bytes;
-}
-
-mrpt::maps::CPointsMapXYZI::Ptr CSeabedSkyMap::getAsPointsMap(Layer layer) const {
-  auto cloud = mrpt::maps::CPointsMapXYZI::Create();
-  cloud->reserve(pointCount(layer));
-  forEachPoint(layer, [&cloud](const MapPoint& point) {
-    const Eigen::Vector3f p = point.p_map.cast<float>();
-    cloud->insertPointRGB(p.x(), p.y(), p.z(), point.intensity, point.intensity, point.intensity);
-  });
-  return cloud;
 }
 
 std::string CSeabedSkyMap::asString() const {

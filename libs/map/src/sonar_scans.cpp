@@ -5,6 +5,13 @@
 
 namespace s2s::map {
 
+namespace {
+
+/// Cosine of the pitch below which a roll is not defined well enough: 3 degrees off straight down.
+constexpr double kStraightDown = 0.05;
+
+}  // namespace
+
 LineScan toMapLineScan(const sonar::LineScan& leadingEdge, const core::Isometry& T_vehicle_sonar) {
   LineScan scan;
   scan.T_vehicle_sonar = T_vehicle_sonar;
@@ -29,7 +36,11 @@ std::vector<ScanPoint> toScanPoints(const std::vector<sonar::StereoPoint>& point
 }
 
 bool isVerticalSonar(const core::Isometry& T_vehicle_sonar) {
-  return std::abs(T_vehicle_sonar.linear()(1, 1)) < std::sqrt(0.5);
+  // Up components of the fan's axis across the beam and of its normal: cos(pitch) times sine and cosine of the roll.
+  const Eigen::Matrix3d R = T_vehicle_sonar.linear();
+  const double across = std::abs(R(2, 1)), normal = std::abs(R(2, 2));
+  if (std::hypot(across, normal) > kStraightDown) return across > normal;
+  return std::abs(R(1, 1)) < std::sqrt(0.5);
 }
 
 }  // namespace s2s::map

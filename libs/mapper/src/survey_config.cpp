@@ -48,6 +48,7 @@ SurveyConfig loadSurveyConfig(const std::string& path, const std::vector<std::st
   sonar::loadSonars(ini, config.sonar);
   ini.rejectUnread();
   config.map.surface = config.products.grid;  // the seabed's cells are set where the product is
+  config.map.waterline_m = config.mapper.waterline_m;
   return config;
 }
 

@@ -19,8 +19,6 @@ constexpr double kLidarSize_m = 0.12, kSonarSize_m = 0.25;  // sonar points are 
 constexpr double kLargestExaggeration = 8;
 constexpr int kSectionBorder_px = 70;
 
-const std::vector<map::Layer> kSonarLayers = {map::Layer::Stereo, map::Layer::LineHorizontal, map::Layer::LineVertical};
-
 Rgb layerColour(map::Layer layer) {
   constexpr std::array<Rgb, 4> kColours = {{{{150, 148, 144}}, {{222, 122, 30}}, {{40, 110, 180}}, {{30, 140, 96}}}};
   return kColours[static_cast<std::size_t>(layer)];
@@ -68,10 +66,10 @@ struct MapPictures::Implementation {
   Implementation(const PictureContext& c, const PictureOptions& o)
       : context(c),
         options(o),
-        bottom_m(c.statistics.heightQuantile_m(kSonarLayers, 0.005)),
+        bottom_m(c.statistics.heightQuantile_m(map::kSonarLayers, 0.005)),
         top_m(c.statistics.heightQuantile_m({map::Layer::Lidar}, 0.995)),
         colours(c.datum.height_m, c.statistics.heightQuantile_m({map::Layer::Lidar}, 0.97), bottom_m,
-                std::min(c.datum.height_m, c.statistics.heightQuantile_m(kSonarLayers, 0.98))),
+                std::min(c.datum.height_m, c.statistics.heightQuantile_m(map::kSonarLayers, 0.98))),
         low_m(c.frame.low_m.array() - o.margin_m),
         high_m(c.frame.high_m.array() + o.margin_m),
         obliqueView(makeOblique(), kPaper, SplatRenderer::Shading::EyeDome),

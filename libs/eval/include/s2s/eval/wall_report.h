@@ -11,7 +11,7 @@ namespace s2s::eval {
 
 struct WallReportOptions {
   WallOptions wall;  ///< `waterHeight_m` and `sonarMinHeight_m` are set from what follows
-  std::vector<map::Layer> sonarLayers = {map::Layer::Stereo, map::Layer::LineHorizontal, map::Layer::LineVertical};
+  std::vector<map::Layer> sonarLayers = map::kSonarLayers;
   std::optional<double> waterHeight_m;    ///< in the map frame; by default that of summary.json
   std::optional<double> sonarMaxDepth_m;  ///< below the water surface
   std::string truthFolder;                ///< if not empty, the ends of the wall are in its world frame

@@ -49,9 +49,6 @@ class CSeabedSkyMap : public mrpt::maps::CMetricMap {
   CSeabedSkyMap& operator=(const CSeabedSkyMap& other);
 
   const MapOptions& options() const { return options_; }
-  /// Holds for what is inserted from now on; a changed `interpolation` or `lineElevation` holds for all (the latter
-  /// after `resolveLineScans`).
-  void setOptions(const MapOptions& options);
 
   /// @name Keyframes
   /// @{
@@ -97,8 +94,6 @@ class CSeabedSkyMap : public mrpt::maps::CMetricMap {
   std::array<std::size_t, kElevationSources> elevationSources(Layer layer) const;
   /// Bytes that the points take.
   std::size_t memory_bytes() const;
-  /// A layer as MRPT's own cloud, in the map's frame.
-  mrpt::maps::CPointsMapXYZI::Ptr getAsPointsMap(Layer layer) const;
   /// @}
 
   /// @name MRPT's map interface

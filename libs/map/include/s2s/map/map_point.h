@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "s2s/core/time.h"
 
@@ -17,6 +18,7 @@ enum class Layer : std::uint8_t {
 };
 
 constexpr std::array<Layer, 4> kLayers = {Layer::Lidar, Layer::Stereo, Layer::LineHorizontal, Layer::LineVertical};
+inline const std::vector<Layer> kSonarLayers = {Layer::Stereo, Layer::LineHorizontal, Layer::LineVertical};
 
 /// "lidar", "stereo", "line_horizontal", "line_vertical": the names used in files and in `summary.json`.
 constexpr const char* layerName(Layer layer) {

@@ -39,7 +39,7 @@ struct ResolverOptions {
   double wallMinHeight_m = 0.75;     ///< points of a cell and its neighbours must span this height to make a wall
   double wallMaxThickness_m = 0.10;  ///< and lie this close to a vertical plane (standard deviation)
   int wallMinPoints = 12;
-  /// LiDAR returns up to this height above the vehicle's origin (the waterline) tell of walls that go on below.
+  /// LiDAR returns up to this height above the waterline tell of walls that go on below.
   double lidarWallBand_m = 2.5;
   double lidarWallRange_m = 20.0;    ///< and up to this distance from the vehicle: beyond, no sonar looks
   double gate = 3.0;                 ///< an arc meets a known surface within this many standard deviations
@@ -69,7 +69,9 @@ struct MapOptions {
   ResolverOptions resolver;
   LikelihoodOptions likelihood;
   ViewOptions view;
-  SurfaceOptions surface;  ///< not streamed with the map: whoever reads it chooses
+  // Not streamed with the map: whoever reads it chooses.
+  SurfaceOptions surface;
+  double waterline_m = 0;  ///< height of the water surface in the vehicle frame at rest
 };
 
 }  // namespace s2s::map

@@ -16,8 +16,9 @@ LineScan toMapLineScan(const sonar::LineScan& leadingEdge, const core::Isometry&
 std::vector<ScanPoint> toScanPoints(const std::vector<sonar::StereoPoint>& points,
                                     const core::Isometry& T_vehicle_horizontal);
 
-/// True if a sonar's imaging plane stands upright on the vehicle: its y axis is then nearer to the vehicle's xz plane
-/// than to its y axis.
+/// True if a sonar's imaging plane stands upright, whatever way the sonar looks: it is rolled by more than 45 degrees
+/// about its central beam. Of one that looks straight down (or up), where there is no roll: true if its fan lies along
+/// the vehicle rather than across it.
 bool isVerticalSonar(const core::Isometry& T_vehicle_sonar);
 
 }  // namespace s2s::map
