@@ -15,6 +15,7 @@ namespace s2s {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 namespace fs = std::filesystem;
 
@@ -125,6 +126,12 @@ TEST_F(SeabedSkyMap, UnusableInput_ExitsWithThree) {
   const auto outcome = run(survey() + rest + " --set mapper.label_lidar=OS2");
   EXPECT_EQ(outcome.exitCode, 3);
   EXPECT_THAT(outcome.text, HasSubstr("'LIDAR'"));
+}
+
+TEST_F(SeabedSkyMap, OutputThatCannotBeWritten_ExitsWithFourBeforeMapping) {
+  const auto outcome = run(survey() + " --config " + config() + " --output " + survey() + "/x");
+  EXPECT_EQ(outcome.exitCode, 4) << outcome.text;
+  EXPECT_THAT(outcome.text, Not(HasSubstr("Mapping: 100 %")));
 }
 
 TEST_F(SeabedSkyMap, HelpAndPrintedConfiguration_ExitWithZero) {

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,6 +9,10 @@
 
 namespace s2s::mapper {
 namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr double kDuration_s = 8.0;  // the vessel lies still for two seconds and then sets off
 
@@ -85,6 +90,20 @@ TEST(SurveyMapper, SonarsSilent_MapsWithLidarAlone) {
   EXPECT_EQ(mapper.map().pointCount(map::Layer::Stereo), 0u);
 }
 
+TEST(SurveyMapper, ImuLabelledOtherwise_IsWarnedOf) {
+  const auto faultsWith = [](odometry::ImuUse use) {
+    SurveyConfig config = canalConfig();
+    config.odometry.imuUse = use;
+    SurveyMapper mapper(config, 1);
+    for (const auto& record : survey().records)
+      if (record->sensorLabel == "LIDAR") mapper.push(record, "");
+    mapper.finish();
+    return mapper.faults().lines();
+  };
+  EXPECT_THAT(faultsWith(odometry::ImuUse::automatic), Contains(HasSubstr("no record of an IMU labelled 'IMU'")));
+  EXPECT_THAT(faultsWith(odometry::ImuUse::never), Not(Contains(HasSubstr("IMU"))));
+}
+
 TEST(SurveyMapper, RealTimeWithoutTime_DropsCountsAndStillMaps) {
   auto impatient = canalConfig();
   impatient.mapper.queueCapacity = 2;
@@ -106,6 +125,18 @@ TEST(SurveyMapper, RealTimeWithoutTime_DropsCountsAndStillMaps) {
 
 TEST(SurveyMapper, NotInRealTime_MeasuresNoLatency) {
   EXPECT_TRUE(mapped(canalConfig(), 2)->latencies().statistics().empty());
+}
+
+TEST(SurveyMapper, GivenUpHalfway_EndsAtOnceAndPrintsNothing) {
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  {
+    SurveyMapper mapper(canalConfig(), 4);
+    for (const auto& record : survey().records)
+      if (record->sensorLabel == "IMU") mapper.push(record, "");
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(SurveyMapper, NothingPushed_FinishesEmpty) {

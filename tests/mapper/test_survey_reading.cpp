@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "s2s/core/error.h"
 #include "s2s/obs/rawlog_writer.h"
 #include "survey_reading.h"
 #include "temp_folder.h"
@@ -41,6 +42,19 @@ std::vector<double> timesRead(const std::vector<double>& written_s, double from_
 TEST(SurveyReading, PartOfARawlog_IsByTimeFromTheFirstRecord) {
   EXPECT_THAT(timesRead({0, 1, 2, 3, 4}, 1, 3), ElementsAre(1, 2, 3));
   EXPECT_THAT(timesRead({0, 1, 2}, 0, -1), ElementsAre(0, 1, 2));
+}
+
+TEST(SurveyReading, PartThatEndsBeforeItBegins_IsAConfigError) {
+  EXPECT_THROW(timesRead({0, 1, 2}, 2, 1), core::ConfigError);
+}
+
+TEST(SurveyReading, PartBehindTheEnd_IsAnInputErrorThatSaysSo) {
+  try {
+    timesRead({0, 1, 2}, 100, -1);
+    FAIL() << "no error";
+  } catch (const core::InputError& e) {
+    EXPECT_THAT(e.fault(), ::testing::HasSubstr("no record in that part"));
+  }
 }
 
 TEST(SurveyReading, OneWrongTimeOrSensorThatIsEarly_DoesNotEndThePart) {

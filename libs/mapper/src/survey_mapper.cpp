@@ -8,7 +8,6 @@ namespace s2s::mapper {
 SurveyMapper::SurveyMapper(const SurveyConfig& config, int threads, bool realtime,
                            std::unique_ptr<graph::PriorMap> prior)
     : config_(config),
-      profile_(true),
       latencies_(realtime),
       router_(config_.mapper, faults_),
       backend_(graphOptions(config_), config_.map, std::move(prior)),
@@ -19,9 +18,7 @@ SurveyMapper::SurveyMapper(const SurveyConfig& config, int threads, bool realtim
                 [this](OdometryUpdate update) { onOdometry(std::move(update)); }),
       odometryWorker_(threads > 1, static_cast<std::size_t>(config_.mapper.queueCapacity)) {}
 
-SurveyMapper::~SurveyMapper() {
-  profile_.clear(true);  // or its destructor would print it
-}
+SurveyMapper::~SurveyMapper() = default;
 
 void SurveyMapper::push(const mrpt::obs::CObservation::Ptr& observation, const std::string& where) {
   const Role role = router_.route(*observation, where);
@@ -92,6 +89,11 @@ void SurveyMapper::finish() {
   sonarWorker_.finish();
   sonar_.finish();
   backendWorker_.finish();
+  if (router_.count(Role::Imu) == 0 && config_.odometry.imuUse != odometry::ImuUse::never)
+    faults_.add(
+        "no record of an IMU labelled '" + config_.mapper.imu.label +
+        "': the LiDAR alone was used, which between bare walls does not know the height; check label_imu, or set "
+        "imu = never in [odometry]");
   const mrpt::system::CTimeLoggerEntry timer(profile_, "back end: last optimisation");
   backend_.finish();
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "s2s/core/error.h"
 #include "s2s/core/progress.h"
 #include "s2s/core/time.h"
 
@@ -24,9 +25,13 @@ double expectedTotal_s(double done_s, double shareRead, const SurveyReading& rea
 
 void readRecords(const SurveyReading& reading, obs::RawlogReader& reader, FaultLog& faults,
                  const std::function<void(const mrpt::obs::CObservation::Ptr&, const std::string& where)>& use) {
+  if (reading.to_s >= 0 && reading.to_s <= reading.from_s)
+    throw core::ConfigError("the part of the survey ends before it begins", "--from, --to",
+                            "give an end after the start");
   core::Progress progress(reading.progress, reading.label, 0, "s");
   std::optional<core::TimeNs> start;
   int beyond = 0;
+  bool any = false;
   while (const auto observation = reader.next()) {
     const core::TimeNs time = core::fromMrptTime(observation->timestamp);
     if (time <= 0) {
@@ -41,10 +46,14 @@ void readRecords(const SurveyReading& reading, obs::RawlogReader& reader, FaultL
       continue;
     }
     beyond = 0;
+    any = true;
     use(observation, reader.where());
     progress.setTotal(expectedTotal_s(elapsed_s, reader.shareRead(), reading) - std::max(0.0, reading.from_s));
     progress.update(elapsed_s - reading.from_s);
   }
+  if (start && !any)
+    throw core::InputError("the rawlog has no record in that part", reader.path(),
+                           "--from and --to count seconds from the first record; rawlog-edit --info tells its length");
   for (const auto& fault : reader.faults())
     faults.add(fault.fatal() ? "reading ended early: " + fault.text : fault.text,
                reader.path() + ", record " + std::to_string(fault.record) + ", byte " + std::to_string(fault.byte));

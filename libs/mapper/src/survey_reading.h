@@ -21,6 +21,7 @@ struct SurveyReading {
 
 /// Hands out the records of the chosen part with their places; the reader's faults go into the log. Records without a
 /// time are handed out, too: whoever uses them counts them. Single records with a wrong time do not end the part.
+/// @throws core::ConfigError if the part ends before it begins, core::InputError if the rawlog has no record in it
 void readRecords(const SurveyReading& reading, obs::RawlogReader& reader, FaultLog& faults,
                  const std::function<void(const mrpt::obs::CObservation::Ptr&, const std::string& where)>& use);
 

@@ -70,6 +70,11 @@ class SurveyMapper {
   const mrpt::system::CTimeLogger& profile() const { return profile_; }
 
  private:
+  /// Prints nothing at its end, where MRPT's own would. It must outlive the workers, whose last tasks write to it.
+  struct Profile : mrpt::system::CTimeLogger {
+    ~Profile() override { clear(true); }
+  };
+
   /// Runs a stage's work under a name in the profile.
   template <class Work>
   auto timed(const char* name, Work work) {
@@ -88,7 +93,7 @@ class SurveyMapper {
 
   const SurveyConfig config_;
   FaultLog faults_;
-  mrpt::system::CTimeLogger profile_;
+  Profile profile_;
   LatencyMonitor latencies_;
   SensorRouter router_;
   // Each worker is declared after the stage it runs, last consumer first: they end in the opposite order.
