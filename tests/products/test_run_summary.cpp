@@ -34,7 +34,6 @@ RunSummary sampleSummary() {
   s.loopClosures = 7;
   s.points = {10'000'000, 2, 3, 4};
   s.waterHeight_m = -0.125;
-  s.dataFaults = {{"sweeps out of order", 2}};
   s.warnings = {"a \"quoted\" warning"};
   s.stageTimes_s = {{"odometry", 12.5}};
   s.figures = {{"seabed_area_m2", 1234.5}, {"undefined_m", std::nan("")}};
@@ -52,7 +51,6 @@ TEST(RunSummary, Json_HasTheStatedKeys) {
   EXPECT_EQ(json["water_height_m"], -0.125);
   EXPECT_EQ(json["warnings"][0], "a \"quoted\" warning");
   EXPECT_TRUE(json["figures"]["undefined_m"].is_null());
-  EXPECT_EQ(json["data_faults"]["sweeps out of order"], 2);
 }
 
 TEST(RunSummary, DistrustedGnss_ReadsBackWithItsSpans) {
@@ -105,7 +103,6 @@ TEST(RunSummary, File_ReadsBack) {
   EXPECT_EQ(back.points, s.points);
   EXPECT_EQ(back.keyframes, s.keyframes);
   EXPECT_EQ(back.waterHeight_m, s.waterHeight_m);
-  EXPECT_EQ(back.dataFaults, s.dataFaults);
   EXPECT_EQ(back.warnings, s.warnings);
   EXPECT_EQ(back.stageTimes_s, s.stageTimes_s);
   ASSERT_EQ(back.figures.size(), 2U);

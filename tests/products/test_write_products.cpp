@@ -118,6 +118,22 @@ TEST(WriteProducts, MapAsSource_GivesItsPointsWhereTheKeyframesPutThem) {
   EXPECT_LT((points[0].p - Eigen::Vector3d(10, 2, 1)).norm(), 1e-5);
 }
 
+TEST(WriteProducts, MapAsSource_GivesTheSeabedOfTheMapsOwnSurface) {
+  const TempFolder folder;
+  map::MapOptions mapOptions;
+  mapOptions.surface.cell_m = 2;
+  map::CSeabedSkyMap map(mapOptions);
+  std::vector<map::ScanPoint> bed;
+  for (int i = 0; i < 100; ++i)
+    bed.push_back({{0.1F * static_cast<float>(i % 10), 0.1F * static_cast<float>(i / 10), -4}, 100, 0.05F});
+  map.insertScan(map::Layer::Stereo, 0, core::Isometry::Identity(), bed);
+  auto options = quickOptions();
+  options.geoTiff = true;
+  options.grid.cell_m = 0.5;
+  writeProducts(map, {}, {}, options, folder.path());
+  EXPECT_EQ(readGrid(folder.file("seabed.tif")).cell_m, 2);  // not estimated anew from the points
+}
+
 TEST(WriteProducts, NoPointsAtAll_GivesEmptyLayersAndAWarning) {
   const TempFolder folder;
   const PointSource nothing = [](map::Layer, const PointVisitor&) {};

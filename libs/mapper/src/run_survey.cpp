@@ -158,9 +158,8 @@ products::RunSummary runSurvey(const SurveyRun& run, const SurveyConfig& config)
   core::Progress progress(run.progress, "Writing products", 0, "files");
   double files = 0;
   const auto result = products::writeProducts(
-      [&mapper](map::Layer layer, const products::PointVisitor& visit) { mapper.map().forEachPoint(layer, visit); },
-      {mapper.trajectory(), mapper.odometryTrajectory(), mapper.keyframeTrajectory()}, summary, config.products,
-      run.output, [&](const std::string&) { progress.update(++files); }, &mapper.map().surface());
+      mapper.map(), {mapper.trajectory(), mapper.odometryTrajectory(), mapper.keyframeTrajectory()}, summary,
+      config.products, run.output, [&](const std::string&) { progress.update(++files); });
   return result.summary;
 }
 

@@ -135,20 +135,10 @@ std::string keyFigures(const ReportContent& c) {
 }
 
 std::string warnings(const RunSummary& s) {
-  if (s.warnings.empty() && s.dataFaults.empty())
-    return "<section class=\"good\"><h2>Warnings and data faults</h2><p>None.</p></section>\n";
-  std::string out = "<section class=\"warn\"><h2>Warnings and data faults</h2>\n";
-  if (!s.warnings.empty()) {
-    out += "<ul>\n";
-    for (const auto& warning : s.warnings) out += "<li>" + escape(warning) + "</li>\n";
-    out += "</ul>\n";
-  }
-  if (!s.dataFaults.empty()) {
-    out += "<h3>Faults of the data, counted</h3><table>\n";
-    for (const auto& [name, count] : s.dataFaults) out += row(escape(name), grouped(count));
-    out += "</table>\n";
-  }
-  return out + "</section>\n";
+  if (s.warnings.empty()) return "<section class=\"good\"><h2>Warnings and data faults</h2><p>None.</p></section>\n";
+  std::string out = "<section class=\"warn\"><h2>Warnings and data faults</h2>\n<ul>\n";
+  for (const auto& warning : s.warnings) out += "<li>" + escape(warning) + "</li>\n";
+  return out + "</ul>\n</section>\n";
 }
 
 std::string pictures(const std::vector<ReportPicture>& all) {

@@ -103,8 +103,6 @@ RunSummary fromJson(const Json& json) {
     take(json["prior_map"], "believed", prior.believed);
   }
   take(json, "warnings", s.warnings);
-  if (json.contains("data_faults"))
-    for (const auto& [name, count] : json["data_faults"].items()) s.dataFaults.emplace_back(name, count);
   if (json.contains("stage_times_s"))
     for (const auto& [name, time] : json["stage_times_s"].items()) s.stageTimes_s.emplace_back(name, time);
   if (json.contains("latencies_s"))
@@ -163,8 +161,6 @@ std::string toJson(const RunSummary& s) {
   for (const auto& l : s.latencies)
     json["latencies_s"][l.name] = {
         {"count", l.count}, {"median", number(l.median_s)}, {"p95", number(l.p95_s)}, {"max", number(l.max_s)}};
-  json["data_faults"] = Json::object();
-  for (const auto& [name, count] : s.dataFaults) json["data_faults"][name] = count;
   json["warnings"] = s.warnings;
   // Names come from files and may hold anything; broken UTF-8 is replaced instead of refused.
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

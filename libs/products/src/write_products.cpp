@@ -10,6 +10,7 @@
 #include "picture_drawing.h"
 #include "s2s/core/atomic_file.h"
 #include "s2s/core/error.h"
+#include "s2s/map/CSeabedSkyMap.h"
 #include "s2s/products/cloud_statistics.h"
 #include "s2s/products/grid_files.h"
 #include "s2s/products/las_writer.h"
@@ -25,8 +26,6 @@ namespace s2s::products {
 namespace {
 
 namespace fs = std::filesystem;
-
-const std::vector<map::Layer> kSonarLayers = {map::Layer::Stereo, map::Layer::LineHorizontal, map::Layer::LineVertical};
 
 /// Peak resident memory of this process.
 double peakRss_mb() {
@@ -155,7 +154,7 @@ class Writing {
 
   MapColours colours() const {
     return {datum_.height_m, statistics_.heightQuantile_m({map::Layer::Lidar}, 0.98),
-            statistics_.heightQuantile_m(kSonarLayers, 0.01), datum_.height_m};
+            statistics_.heightQuantile_m(map::kSonarLayers, 0.01), datum_.height_m};
   }
 
   PictureContext pictureContext() const {
@@ -282,7 +281,7 @@ ProductsResult writeProducts(const PointSource& points, const Trajectories& traj
 ProductsResult writeProducts(const map::CSeabedSkyMap& map, const Trajectories& trajectories, RunSummary summary,
                              const ProductsOptions& options, const std::string& dir,
                              const std::function<void(const std::string&)>& onFile) {
-  return writeProducts(pointsOf(map), trajectories, std::move(summary), options, dir, onFile);
+  return writeProducts(pointsOf(map), trajectories, std::move(summary), options, dir, onFile, &map.surface());
 }
 
 }  // namespace s2s::products

@@ -75,9 +75,7 @@ struct RunSummary {
   std::optional<PriorMapSummary> priorMap;  ///< nothing without one
   std::optional<GnssSummary> gnss;          ///< nothing without fixes
 
-  /// Faults of the data by kind, e.g. {"records out of order", 3}.
-  std::vector<std::pair<std::string, std::uint64_t>> dataFaults;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;  ///< faults of the data among them, each kind once with its count
   std::vector<std::pair<std::string, double>> stageTimes_s;  ///< e.g. {"odometry", 41.2}
   std::vector<LatencySummary> latencies;                     ///< empty unless the run kept to the recorded rate
   /// Further figures for the table and `summary.json`; the name ends in its unit, e.g. {"loop_closure_residual_m",

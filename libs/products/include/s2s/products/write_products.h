@@ -48,7 +48,7 @@ ProductsResult writeProducts(const PointSource& points, const Trajectories& traj
                              const std::function<void(const std::string&)>& onFile = {},
                              const map::SurfaceEstimator* surface = nullptr);
 
-/// The same with the points of a map.
+/// The same with the points and the surface of a map.
 ProductsResult writeProducts(const map::CSeabedSkyMap& map, const Trajectories& trajectories, RunSummary summary,
                              const ProductsOptions& options, const std::string& dir,
                              const std::function<void(const std::string&)>& onFile = {});
