@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
     if (!config.empty()) {
       auto ini = s2s::core::IniFile::load(config);
       s2s::sonar::loadSonars(ini, options);
+      ini.rejectUnread("sonar");  // a vessel's configuration has other sections, too
     }
     s2s::inspect::Inspector inspector(options, folder);
     std::cout << inspector.inspect(s2s::inspect::readPings(rawlog, labels, ping));

@@ -110,6 +110,14 @@ TEST(IniFile, AllKeysReadOrDeclared_NothingIsRejected) {
   EXPECT_NO_THROW(ini.rejectUnread());
 }
 
+TEST(IniFile, RejectUnreadOfAPrefix_LeavesOtherSectionsAlone) {
+  auto ini = IniFile::parse("[mapper]\nthreads = 1\n[sonar.cfar]\ngain = 2\n", "t.ini");
+  ini.declare("sonar.cfar", {"gain"});
+  EXPECT_NO_THROW(ini.rejectUnread("sonar"));
+  ini.set("sonar.cfar", "gian", "3");
+  EXPECT_EQ(errorOf([&] { ini.rejectUnread("sonar"); }).where(), "t.ini [sonar.cfar] gian");
+}
+
 TEST(IniFile, Set_ReplacesAndAdds) {
   auto ini = IniFile::parse("[s]\na = 1\n", "t.ini");
   ini.set("s", "a", "2");

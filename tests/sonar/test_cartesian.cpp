@@ -20,30 +20,6 @@ TEST(Cartesian, BrightPixel_LandsWhereItsPointIs) {
   EXPECT_LT((center - planePoint(geometry, 250, 180).head<2>()).norm(), 0.01);
 }
 
-TEST(Cartesian, ThereAndBack_KeepsASmoothImage) {
-  const auto geometry = geometryOf(test::emptyPing(256, 300, 60 * test::kDeg));
-  cv::Mat polar(300, 256, CV_8U);
-  for (int r = 0; r < polar.rows; ++r)
-    for (int c = 0; c < polar.cols; ++c)
-      polar.at<std::uint8_t>(r, c) = static_cast<std::uint8_t>(128 + 60 * std::sin(r / 20.0) + 50 * std::cos(c / 30.0));
-  const auto grid = gridFor(geometry, 0.01);
-  const cv::Mat back = toPolar(toCartesian(polar, geometry, grid), grid, geometry);
-  const cv::Rect inner(20, 60, 216, 220);  // near the apex beams are finer than the grid, and edges mix with nothing
-  cv::Mat difference;
-  cv::absdiff(polar(inner), back(inner), difference);
-  double worst = 0;
-  cv::minMaxIdx(difference, nullptr, &worst);
-  EXPECT_LE(worst, 4);  // two bilinear steps over slopes of 3 levels a pixel
-}
-
-TEST(Cartesian, PlanePointInOtherFrame_FollowsAnyPose) {
-  const auto geometry = geometryOf(test::emptyPing(11, 100, 100 * test::kDeg));
-  const core::Isometry T = core::isometryFromXyzYpr(0.1, -0.2, 0.3, 0.4, -0.5, 0.6);
-  const Eigen::Vector3d p = planePoint(geometry, 49.5, 5);
-  EXPECT_NEAR(p.x(), 5.0, 1e-9);  // the middle beam, half of 10 m
-  EXPECT_LT((planePointIn(T, geometry, 49.5, 5) - T * Eigen::Vector3d(5, 0, 0)).norm(), 1e-6);  // bearings are floats
-}
-
 TEST(Cartesian, Grid_PixelAndPointAreInverse) {
   const auto grid = gridFor(geometryOf(test::emptyPing()), 0.05);
   const Eigen::Vector2d pixel = grid.pixelOf(grid.at(12, 34));

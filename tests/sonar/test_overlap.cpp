@@ -42,6 +42,14 @@ TEST(Overlap, SonarsBackToBack_ShareNothing) {
   EXPECT_TRUE(findOverlap(g, g, core::isometryFromXyzYpr(0, 0, 0, M_PI, 0, M_PI / 2)).region.empty());
 }
 
+TEST(Overlap, SonarOfOneBeam_SharesWhatTheOtherSeesOfIt) {
+  const auto one = geometryOf(test::emptyPing(1)), fan = geometryOf(test::emptyPing());
+  for (const auto& overlap :
+       {findOverlap(one, fan, core::Isometry::Identity()), findOverlap(fan, one, core::Isometry::Identity())})
+    EXPECT_LE(overlap.region.endBeam, static_cast<int>(overlap.bins.size()));
+  EXPECT_EQ(findOverlap(one, fan, core::Isometry::Identity()).region.endBeam, 1);
+}
+
 TEST(Overlap, EmptyGeometry_SharesNothing) {
   EXPECT_TRUE(findOverlap({}, {}, core::Isometry::Identity()).region.empty());
 }

@@ -2,6 +2,7 @@
 #include <sys/wait.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "s2s/core/time.h"
 #include "s2s/obs/rawlog_writer.h"
@@ -67,6 +68,17 @@ TEST(SonarInspect, WrongInput_HasItsExitCode) {
   EXPECT_EQ(runInspect(folder.file("none.rawlog") + " --output " + folder.file("x")), 3);
   EXPECT_EQ(runInspect(log), 2);
   EXPECT_EQ(runInspect(log + " --output " + folder.file("x") + " --config " + folder.file("none.ini")), 2);
+}
+
+TEST(SonarInspect, MapperConfigurationIsTaken_MisspelledSonarKeyIsRefused) {
+  const TempFolder folder;
+  const std::string log = writeLog(folder, true, false);
+  const auto inspectWith = [&](const std::string& text) {
+    std::ofstream(folder.file("c.ini")) << text;
+    return runInspect(log + " --output " + folder.file("x") + " --config " + folder.file("c.ini"));
+  };
+  EXPECT_EQ(inspectWith("[mapper]\nsonar_horizontal = SONAR_HORIZONTAL\n"), 0);
+  EXPECT_EQ(inspectWith("[sonar.detection]\nno_such_key = 1\n"), 2);
 }
 
 }  // namespace

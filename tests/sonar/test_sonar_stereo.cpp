@@ -137,6 +137,19 @@ TEST(SonarStereo, EmptyPings_SayThereIsNoOverlap) {
   EXPECT_EQ(stereoWith().process(none, none, core::Isometry::Identity()).status, StereoStatus::NoOverlap);
 }
 
+TEST(SonarStereo, SonarOfOneBeam_IsTaken) {
+  auto one = test::emptyPing(1);
+  one.bearings_rad = {0};
+  const core::Isometry T_h_v = core::isometryFromXyzYpr(0, 0, 0, 0, 0, M_PI / 2);
+  auto fan = test::emptyPing();
+  for (std::size_t bin = 300; bin < 310; ++bin) {
+    test::setSample(one, bin, 0, 250);
+    for (std::size_t beam = 200; beam < 312; ++beam) test::setSample(fan, bin, beam, 250);
+  }
+  EXPECT_NO_THROW(stereoWith().process(fan, one, T_h_v));
+  EXPECT_NO_THROW(stereoWith().process(one, fan, T_h_v));
+}
+
 TEST(SonarStereo, DamagedPing_IsRefused) {
   auto ping = test::emptyPing();
   ping.bearings_rad.pop_back();

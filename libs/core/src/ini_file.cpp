@@ -107,8 +107,6 @@ IniFile IniFile::parse(const std::string& text, const std::string& name) {
   return ini;
 }
 
-std::vector<std::string> IniFile::sectionNames() const { return sectionsStartingWith(""); }
-
 std::vector<std::string> IniFile::sectionsStartingWith(const std::string& prefix) const {
   std::vector<std::string> names;
   for (const auto& [name, entries] : sections_)
@@ -138,8 +136,9 @@ void IniFile::set(const std::string& section, const std::string& key, const std:
   sections_[section][key] = Entry{value, 0};
 }
 
-void IniFile::rejectUnread() const {
+void IniFile::rejectUnread(const std::string& prefix) const {
   for (const auto& [section, entries] : sections_) {
+    if (section.compare(0, prefix.size(), prefix) != 0) continue;
     const auto known = declared_.find(section);
     if (known == declared_.end()) {
       std::vector<std::string> names;

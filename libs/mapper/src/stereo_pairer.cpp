@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include "s2s/map/sonar_scans.h"
+
 namespace s2s::mapper {
 
 namespace {
@@ -70,10 +72,7 @@ StereoScan StereoPairer::fuse(const PendingPing& horizontal, const PendingPing& 
   if (!h || !v) return scan;
   const core::Isometry T_h_v =
       horizontal.T_vehicle_sonar.inverse() * motion_(horizontal.time, vertical.time) * vertical.T_vehicle_sonar;
-  const auto result = stereo_.process(*h, *v, T_h_v);
-  for (const auto& point : result.points)
-    scan.points.push_back(
-        {(horizontal.T_vehicle_sonar * point.p_h).cast<float>(), point.intensity, static_cast<float>(point.sigma_m())});
+  scan.points = map::toScanPoints(stereo_.process(*h, *v, T_h_v).points, horizontal.T_vehicle_sonar);
   return scan;
 }
 

@@ -50,18 +50,4 @@ cv::Mat toCartesian(const cv::Mat& polar, const PingGeometry& geometry, const Ca
   return cartesian;
 }
 
-cv::Mat toPolar(const cv::Mat& cartesian, const CartesianGrid& grid, const PingGeometry& geometry) {
-  const auto rows = static_cast<int>(geometry.rangeCount), columns = static_cast<int>(geometry.beamCount());
-  cv::Mat x(rows, columns, CV_32F), y(rows, columns, CV_32F);
-  for (int bin = 0; bin < rows; ++bin)
-    for (int beam = 0; beam < columns; ++beam) {
-      const Eigen::Vector2d pixel = grid.pixelOf(planePoint(geometry, bin, beam).head<2>());
-      y.at<float>(bin, beam) = static_cast<float>(pixel.x());
-      x.at<float>(bin, beam) = static_cast<float>(pixel.y());
-    }
-  cv::Mat polar;
-  cv::remap(cartesian, polar, x, y, cv::INTER_LINEAR, cv::BORDER_CONSTANT, cv::Scalar(0));
-  return polar;
-}
-
 }  // namespace s2s::sonar

@@ -8,7 +8,8 @@ namespace s2s::sonar {
 namespace {
 
 float bilinear(const cv::Mat& image, double bin, double beam) {
-  if (bin < 0 || beam < 0 || bin > image.rows - 1 || beam > image.cols - 1) return 0;
+  // Of a single beam the neighbours are nowhere: NaN fails the comparison.
+  if (!(bin >= 0 && beam >= 0 && bin <= image.rows - 1 && beam <= image.cols - 1)) return 0;
   const int r = std::min(static_cast<int>(bin), std::max(0, image.rows - 2));
   const int c = std::min(static_cast<int>(beam), std::max(0, image.cols - 2));
   const auto u = static_cast<float>(bin - r), w = static_cast<float>(beam - c);

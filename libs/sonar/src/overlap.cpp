@@ -79,7 +79,9 @@ Overlap findOverlap(const PingGeometry& a, const PingGeometry& b, const core::Is
 
   const View view(b);
   const double width_rad = (a.maxBearing_rad() - a.minBearing_rad()) / static_cast<double>(beams);
-  const std::size_t step = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kBeamStep_rad / width_rad)));
+  // A single beam has no width.
+  const auto step = static_cast<std::size_t>(
+      std::clamp(std::round(kBeamStep_rad / std::max(width_rad, 1e-9)), 1.0, static_cast<double>(beams)));
   for (std::size_t b0 = 0; b0 < beams + step; b0 += step) {
     const std::size_t beam = std::min(b0, beams - 1);
     const auto interval = overlapOfBeam(a, beam, view, T_b_a);

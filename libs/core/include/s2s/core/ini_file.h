@@ -27,8 +27,6 @@ class IniFile {
   static IniFile parse(const std::string& text, const std::string& name);
 
   const std::string& name() const { return name_; }
-  bool hasSection(const std::string& section) const { return sections_.count(section) != 0; }
-  std::vector<std::string> sectionNames() const;
   /// Names of sections starting with `prefix`, in alphabetical order.
   std::vector<std::string> sectionsStartingWith(const std::string& prefix) const;
   /// The entries of a section; an absent one is empty.
@@ -42,8 +40,9 @@ class IniFile {
   /// Sets or replaces a value, as a command line does with `--set section.key=value`.
   void set(const std::string& section, const std::string& key, const std::string& value);
 
+  /// @param prefix only sections that start so are looked at; others belong to another program
   /// @throws ConfigError naming the first section or key that nobody declared, and the nearest one that exists
-  void rejectUnread() const;
+  void rejectUnread(const std::string& prefix = "") const;
 
   /// "file.ini:12 [section] key" for messages.
   std::string where(const std::string& section, const std::string& key) const;

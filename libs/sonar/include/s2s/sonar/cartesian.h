@@ -12,12 +12,6 @@ namespace s2s::sonar {
 /// Paper, equation (1): pixel centres on the imaging plane (zero elevation), in the sonar's frame.
 Eigen::Vector3d planePoint(const PingGeometry& geometry, double bin, double beam);
 
-/// Paper, equation (4) with any rotation: the same point in another sonar's frame.
-inline Eigen::Vector3d planePointIn(const core::Isometry& T_other_sonar, const PingGeometry& geometry, double bin,
-                                    double beam) {
-  return T_other_sonar * planePoint(geometry, bin, beam);
-}
-
 /// Pixels of a Cartesian picture of the imaging plane: row 0 is the far edge, x points up, y to the left, as seen by
 /// somebody looking along with the sonar.
 struct CartesianGrid {
@@ -42,8 +36,5 @@ CartesianGrid gridFor(const PingGeometry& geometry, double resolution_m);
 
 /// Polar image (rows = range bins, columns = beams) to Cartesian, bilinear; 0 outside the fan.
 cv::Mat toCartesian(const cv::Mat& polar, const PingGeometry& geometry, const CartesianGrid& grid);
-
-/// Cartesian image back to polar, bilinear; 0 outside the grid.
-cv::Mat toPolar(const cv::Mat& cartesian, const CartesianGrid& grid, const PingGeometry& geometry);
 
 }  // namespace s2s::sonar
