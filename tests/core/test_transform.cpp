@@ -7,8 +7,6 @@
 
 using namespace s2s;
 using core::Isometry;
-using core::Matrix6;
-using core::Vector6;
 
 namespace {
 
@@ -20,41 +18,10 @@ class Transform : public testing::Test {
     return core::isometryFromXyzYpr(uniform(-9, 9), uniform(-9, 9), uniform(-9, 9), uniform(-3.1, 3.1),
                                     uniform(-1.4, 1.4), uniform(-3.1, 3.1));
   }
-  Matrix6 covariance() {
-    Matrix6 A;
-    for (int i = 0; i < 36; ++i) A(i / 6, i % 6) = uniform(-1, 1);
-    return A * A.transpose() + 0.1 * Matrix6::Identity();
-  }
 
  private:
   std::mt19937 random_{7};
 };
-
-Vector6 xyzypr(const Isometry& T) {
-  const auto pose = core::toPose(T);
-  Vector6 v;
-  v << pose.x(), pose.y(), pose.z(), pose.yaw(), pose.pitch(), pose.roll();
-  return v;
-}
-
-/// T exp(d) with d = (translation, rotation vector) in the body frame, as core/transform.h defines it.
-Isometry perturbed(const Isometry& T, const Vector6& d) {
-  Isometry step = Isometry::Identity();
-  step.linear() = core::expSo3(d.tail<3>());
-  step.translation() = d.head<3>();
-  return T * step;
-}
-
-/// d xyzypr / d (body perturbation) by central differences.
-Matrix6 numericJacobian(const Isometry& T) {
-  const double h = 1e-6;
-  Matrix6 J;
-  for (int i = 0; i < 6; ++i) {
-    const Vector6 d = h * Vector6::Unit(i);
-    J.col(i) = (xyzypr(perturbed(T, d)) - xyzypr(perturbed(T, -d))) / (2 * h);
-  }
-  return J;
-}
 
 }  // namespace
 
@@ -121,31 +88,4 @@ TEST_F(Transform, Interpolate_HitsEndsAndHalvesTheTurn) {
                 1e-9);
     EXPECT_TRUE(middle.translation().isApprox(0.5 * (T0.translation() + T1.translation()), 1e-12));
   }
-}
-
-TEST_F(Transform, CovarianceToMrpt_EqualsNumericPropagation) {
-  for (int i = 0; i < 50; ++i) {
-    const Isometry T = pose();
-    const Matrix6 body = covariance(), J = numericJacobian(T);
-    const Matrix6 expected = J * body * J.transpose();
-    // The entries of J reach 1/cos(1.4) = 6; differences are good to about 1e-8 of that.
-    EXPECT_LT((core::covarianceToMrpt(T, body) - expected).norm(), 1e-6 * expected.norm());
-  }
-}
-
-TEST_F(Transform, CovarianceThereAndBack_IsTheSame) {
-  for (int i = 0; i < 50; ++i) {
-    const Isometry T = pose();
-    const Matrix6 body = covariance();
-    EXPECT_LT((core::covarianceFromMrpt(T, core::covarianceToMrpt(T, body)) - body).norm(), 1e-10 * body.norm());
-  }
-}
-
-TEST_F(Transform, CovarianceOfLevelPose_SwapsRollAndYawOnly) {
-  const Isometry T = Isometry::Identity();
-  Matrix6 body = Matrix6::Zero();
-  body.diagonal() << 1, 2, 3, 4, 5, 6;  // x y z, rotation about x y z
-  Vector6 expected;
-  expected << 1, 2, 3, 6, 5, 4;  // x y z, yaw pitch roll
-  EXPECT_TRUE(core::covarianceToMrpt(T, body).isApprox(Matrix6(expected.asDiagonal()), 1e-14));
 }

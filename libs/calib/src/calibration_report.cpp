@@ -93,7 +93,7 @@ std::string reportText(const CalibrationResult& result) {
   text += "\n";
   for (std::size_t k = 0; k < kEchoKinds; ++k)
     text += mrpt::format("  %-14s %7zu used, %7zu left out, range spread %.3f m\n", kKinds[k],
-                         result.statistics.echoes[k], result.statistics.left_out[k], result.statistics.rangeSigma_m[k]);
+                         result.statistics.echoes[k], result.statistics.leftOut[k], result.statistics.rangeSigma_m[k]);
   for (const SonarId id : kSonars)
     text += mrpt::format("  %-10s aperture %+.2f deg (near edge) %+.2f deg (far edge), ranges %+.4f m\n", sonarName(id),
                          result.state[id].correction[kNear] * kDegrees, result.state[id].correction[kFar] * kDegrees,

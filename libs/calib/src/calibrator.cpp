@@ -85,9 +85,8 @@ class Rounds {
   CalibrationStatistics statistics() const {
     CalibrationStatistics all;
     all.echoes = counts_;
-    all.left_out = leftOut_;
+    all.leftOut = leftOut_;
     all.rangeSigma_m = sigma_;
-    all.seabedNodes = grid_.nodeCount();
     return all;
   }
 

@@ -42,7 +42,7 @@ core::OptionTable optionTable(CalibrationOptions& o) {
   table.add("time_limit_s", o.timeLimit_s, "Known better than this it counts as observable", core::positive());
   table.add("sound_speed_limit_mps", o.soundSpeedLimit_mps, "Known better than this it counts as observable",
             core::positive());
-  table.add("block_s", o.block_s, "Errors within such a time count as correlated", core::positive());
+  table.add("block_s", o.block_s, "Errors within such a time count as correlated", {0.1, 1e4});
   return table;
 }
 

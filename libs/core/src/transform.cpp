@@ -5,27 +5,6 @@
 
 namespace s2s::core {
 
-namespace {
-
-/// d(x, y, z, yaw, pitch, roll) / d(body translation, body rotation vector) at T.
-///
-/// With R = Rz(yaw) Ry(pitch) Rx(roll), the body rates are w = E (yaw', pitch', roll'); this inverts E.
-Matrix6 xyzyprByBody(const Isometry& T) {
-  const Eigen::Matrix3d R = T.linear();
-  const double pitch = std::asin(std::clamp(-R(2, 0), -1.0, 1.0));
-  const double roll = std::atan2(R(2, 1), R(2, 2));
-  Eigen::Matrix3d bodyByYpr;
-  bodyByYpr << -std::sin(pitch), 0, 1,                      //
-      std::cos(pitch) * std::sin(roll), std::cos(roll), 0,  //
-      std::cos(pitch) * std::cos(roll), -std::sin(roll), 0;
-  Matrix6 J = Matrix6::Zero();
-  J.topLeftCorner<3, 3>() = R;
-  J.bottomRightCorner<3, 3>() = bodyByYpr.inverse();
-  return J;
-}
-
-}  // namespace
-
 Isometry toIsometry(const mrpt::poses::CPose3D& pose) {
   Isometry T = Isometry::Identity();
   for (int r = 0; r < 3; ++r)
@@ -91,15 +70,5 @@ Isometry interpolate(const Isometry& T0, const Isometry& T1, double u) {
 }
 
 double angleBetween(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) { return logSo3(a.transpose() * b).norm(); }
-
-Matrix6 covarianceToMrpt(const Isometry& T, const Matrix6& covariance_body) {
-  const Matrix6 J = xyzyprByBody(T);
-  return J * covariance_body * J.transpose();
-}
-
-Matrix6 covarianceFromMrpt(const Isometry& T, const Matrix6& covariance_xyzypr) {
-  const Matrix6 J = xyzyprByBody(T).inverse();
-  return J * covariance_xyzypr * J.transpose();
-}
 
 }  // namespace s2s::core

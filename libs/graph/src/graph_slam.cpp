@@ -119,12 +119,10 @@ KeyframeUpdate GraphSlam::Impl::addKeyframe(const KeyframeInput& input) {
   appendKeyframe(input);
   KeyframeUpdate update;
   update.id = state_.keyframes.back().id;
-  const auto start = Clock::now();
   search_.add(state_);
   if (search_.due(state_)) searchClosures(update);
   const RelocationChange relocation = relocaliser_.add(state_);
   if (relocation == RelocationChange::some) ++waiting_;
-  statistics_.search_s += secondsSince(start);
   if (relocation == RelocationChange::moved || optimisationDue())
     update.optimised = solve().status != SolveStatus::failed;
   return update;
@@ -188,8 +186,6 @@ SolveSummary GraphSlam::Impl::solve() {
     if (summary.status != SolveStatus::failed) takeResult(problem);
     summary.time_s = secondsSince(start);
     statistics_.last = summary;
-    ++statistics_.optimisations;
-    statistics_.optimisation_s += summary.time_s;
     const bool again = summary.status != SolveStatus::failed &&
                        (isAground(problem) || dropContradictions() > 0 || gnss_.state != problem.gnss.state);
     if (!again) break;

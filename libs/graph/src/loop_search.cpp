@@ -46,8 +46,8 @@ void LoopSearch::findNear(const SurveyState& state, int count, std::vector<Closu
   std::vector<std::pair<double, int>> near;
   for (int k = 0; k < count; ++k) {
     const double distance_m = (state.keyframes[k].T_map_vehicle.translation() - newest.translation()).norm();
-    if (distance_m < options_.radius_m + std::min(2 * drift_m(state, k), options_.radius_m))
-      near.emplace_back(distance_m, k);
+    if (distance_m >= 2 * options_.radius_m) continue;  // most of a long survey, spared the costly drift
+    if (distance_m < options_.radius_m + 2 * drift_m(state, k)) near.emplace_back(distance_m, k);
   }
   std::sort(near.begin(), near.end());
   for (const auto& [distance_m, k] : near) {

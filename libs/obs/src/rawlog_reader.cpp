@@ -150,8 +150,6 @@ void RawlogReader::enqueue(const mrpt::serialization::CSerializable::Ptr& object
   }
 }
 
-std::uint64_t RawlogReader::bytesRead() const { return stream_->position; }
-
 double RawlogReader::shareRead() const {
   return static_cast<double>(gzoffset(stream_->file)) / static_cast<double>(stream_->fileSize);
 }

@@ -13,10 +13,9 @@ namespace s2s::calib {
 
 /// What was used and how well it fits.
 struct CalibrationStatistics {
-  std::array<std::size_t, kEchoKinds> echoes{};    ///< used in the last round, by kind
-  std::array<std::size_t, kEchoKinds> left_out{};  ///< beyond the gate or where there is no seabed
-  std::array<double, kEchoKinds> rangeSigma_m{};   ///< spread of the ranges around the surface
-  std::size_t seabedNodes = 0;
+  std::array<std::size_t, kEchoKinds> echoes{};   ///< used in the last round, by kind
+  std::array<std::size_t, kEchoKinds> leftOut{};  ///< beyond the gate or where there is no seabed
+  std::array<double, kEchoKinds> rangeSigma_m{};  ///< spread of the ranges around the surface
 };
 
 struct CalibrationResult {

@@ -22,7 +22,6 @@ class SeabedGrid {
   explicit SeabedGrid(double cell_m) : cell_m_(cell_m) {}
 
   double cell_m() const { return cell_m_; }
-  std::size_t nodeCount() const { return heights_.size(); }
   Index cellOf(double x_m, double y_m) const;
   Eigen::Vector2d corner_m(const Index& cell) const { return {cell.x * cell_m_, cell.y * cell_m_}; }
 

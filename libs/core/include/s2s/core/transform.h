@@ -10,6 +10,8 @@ namespace s2s::core {
 /// Rigid transforms are `Eigen::Isometry3d` in algorithms and `mrpt::poses::CPose3D` at MRPT's interfaces.
 /// `T_a_b` takes coordinates in frame b to coordinates in frame a, so `T_a_c = T_a_b * T_b_c`.
 using Isometry = Eigen::Isometry3d;
+/// A pose covariance is that of the right perturbation T exp(d), d = (translation [m], rotation vector [rad]), both in
+/// the body frame. MRPT's graphs hold the information in (x, y, z, yaw, pitch, roll): see s2s/graph/mrpt_network.h.
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
@@ -32,11 +34,5 @@ Isometry interpolate(const Isometry& T0, const Isometry& T1, double u);
 
 /// Angle in radians between two rotations.
 double angleBetween(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b);
-
-/// Inside, a pose covariance is that of the right perturbation T exp(d), d = (translation [m], rotation vector [rad]),
-/// both in the body frame. MRPT's graphs hold the information in (x, y, z, yaw, pitch, roll) of the pose itself.
-/// These two convert at `T` by first order; they are the only place where the order changes.
-Matrix6 covarianceToMrpt(const Isometry& T, const Matrix6& covariance_body);
-Matrix6 covarianceFromMrpt(const Isometry& T, const Matrix6& covariance_xyzypr);
 
 }  // namespace s2s::core

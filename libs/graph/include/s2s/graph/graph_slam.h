@@ -24,9 +24,7 @@ struct KeyframeUpdate {
 struct GraphStatistics {
   int keyframes = 0;
   int candidates = 0, accepted = 0, pending = 0, rejected = 0;  ///< loop closures
-  int optimisations = 0;
-  SolveSummary last;                        ///< the last optimisation
-  double optimisation_s = 0, search_s = 0;  ///< time spent in all
+  SolveSummary last;                                            ///< the last optimisation
 };
 
 /// The pose graph of a survey: keyframes from the odometry, loop closures found among them, optimised poses out.

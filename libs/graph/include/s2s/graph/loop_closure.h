@@ -26,10 +26,6 @@ enum class ClosureStatus {
   rejectedByOptimiser  ///< contradicts the optimised graph
 };
 
-const char* closureSourceName(ClosureSource source);
-/// A short reason for people, e.g. "contradicts the odometry".
-const char* closureStatusText(ClosureStatus status);
-
 /// A relative pose between two keyframes that were visited at different times.
 struct LoopClosure {
   int from = 0, to = 0;  ///< older and newer keyframe

@@ -43,11 +43,6 @@ class RawlogReader {
   /// The next observation, or null at the end (see `faults` for why).
   mrpt::obs::CObservation::Ptr next();
 
-  /// Number, from 0, and byte offset of the record that the last `next` came from.
-  std::uint64_t record() const { return record_; }
-  std::uint64_t recordByte() const { return recordByte_; }
-  /// Bytes of the uncompressed stream read so far.
-  std::uint64_t bytesRead() const;
   /// Share of the file on disk that has been read, in [0, 1], for progress.
   double shareRead() const;
 

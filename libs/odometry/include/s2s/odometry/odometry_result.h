@@ -27,9 +27,6 @@ enum class OdometryReason {
   weakGeometry        ///< see the degenerate motions
 };
 
-std::string statusName(OdometryStatus status);
-std::string reasonName(OdometryReason reason);
-
 /// What the odometry found out from one scan.
 struct OdometryResult {
   OdometryStatus status = OdometryStatus::skipped;
