@@ -1,11 +1,10 @@
 #include "s2s/core/atomic_file.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <filesystem>
 
+#include "full_disk.h"
 #include "s2s/core/error.h"
 #include "temp_folder.h"
 
@@ -68,13 +67,9 @@ TEST(AtomicFile, TargetIsAFolder_ThrowsOutputErrorAndLeavesNothing) {
 
 TEST(AtomicFile, FullDisk_ThrowsOutputErrorAndLeavesNothing) {
   TempFolder folder;
-  // A limit on the size of files stands for a full disk: write() fails likewise.
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit small{1000, before.rlim_max};
-  setrlimit(RLIMIT_FSIZE, &small);
-  EXPECT_THROW(core::writeTextFile(folder.file("a.txt"), std::string(100'000, 'x')), core::OutputError);
-  setrlimit(RLIMIT_FSIZE, &before);
+  {
+    const test::FullDisk disk(1000);
+    EXPECT_THROW(core::writeTextFile(folder.file("a.txt"), std::string(100'000, 'x')), core::OutputError);
+  }
   EXPECT_EQ(folder.fileCount(), 0u);
 }

@@ -1,11 +1,10 @@
 #include "s2s/obs/rawlog_writer.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <filesystem>
 
+#include "full_disk.h"
 #include "s2s/core/error.h"
 #include "s2s/obs/rawlog_reader.h"
 #include "sample_observations.h"
@@ -118,14 +117,9 @@ TEST(RawlogWriter, UnwritableFolder_ThrowsOutputError) {
 
 TEST(RawlogWriter, FullDisk_ThrowsOutputErrorAndLeavesNothing) {
   TempFolder folder;
-  // A limit on the size of files stands for a full disk: write() fails likewise. One record is about 440 bytes, so the
-  // data fit into the stream's buffer and the fault only shows when it is closed.
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit small{1000, before.rlim_max};
-  setrlimit(RLIMIT_FSIZE, &small);
+  // One record is about 440 bytes, so ten fit into the stream's buffer and the fault only shows when it is closed.
   for (const int count : {10, 2000}) {
+    const test::FullDisk disk(1000);
     const auto writeAll = [&] {
       obs::RawlogWriter writer(folder.file("a.rawlog"));
       for (int i = 0; i < count; ++i) writer.write(imuAt(10 * i));
@@ -133,7 +127,6 @@ TEST(RawlogWriter, FullDisk_ThrowsOutputErrorAndLeavesNothing) {
     };
     EXPECT_THROW(writeAll(), core::OutputError) << count;
   }
-  setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_EQ(folder.fileCount(), 0u);
 }
 

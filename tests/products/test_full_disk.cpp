@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
-
+#include "full_disk.h"
 #include "picture_drawing.h"
 #include "s2s/core/error.h"
 #include "s2s/products/grid_files.h"
@@ -16,27 +14,8 @@
 namespace s2s::products {
 namespace {
 
+using test::FullDisk;
 using test::TempFolder;
-
-/// While it lives, files of this process cannot grow beyond some bytes: writing fails as on a full disk.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit small{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &small);
-  }
-  ~FullDisk() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-
- private:
-  rlimit before_{};
-  void (*handler_)(int);
-};
 
 HeightGrid roughGrid() {
   HeightGrid grid(0, 0, 0.5, 200, 200);
