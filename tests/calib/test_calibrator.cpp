@@ -90,6 +90,12 @@ TEST(Calibrator, TurnsOverRelief_WhatItClaimsIsWithinTheLimits) {
     EXPECT_NEAR(x[i], truth[i], toleranceOf(i)) << parameterName(i);
 }
 
+TEST(Calibrator, OneThread_GivesTheSameBits) {
+  const auto again = calibrate(found().survey.nominal, found().survey.pings, found().survey.trajectory, quickOptions());
+  EXPECT_EQ(correctionsOf(again.state), correctionsOf(found().result.state));
+  EXPECT_EQ(again.observability.parameters[kTime].sigma, found().result.observability.parameters[kTime].sigma);
+}
+
 TEST(Calibrator, CommonHeight_IsNeverClaimed) {
   // A seabed of unknown height rises with both sonars: whatever the survey, this cannot be told.
   for (const int z : {kZ + 0, kZ + kWantedSonarParameters})

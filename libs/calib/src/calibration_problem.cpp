@@ -155,7 +155,7 @@ void CalibrationProblem::solve(int iterations) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.max_num_iterations = iterations;
-  options.num_threads = 2;
+  options.num_threads = options_.threads;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem_, &summary);
@@ -168,7 +168,7 @@ DataInformation CalibrationProblem::information(const std::vector<UsedEcho>& ech
   evaluate.residual_blocks = echoBlocks_;
   for (const auto* more : {&nuisanceBlocks_, &seabedBlocks_})
     evaluate.residual_blocks.insert(evaluate.residual_blocks.end(), more->begin(), more->end());
-  evaluate.num_threads = 2;
+  evaluate.num_threads = options_.threads;
   std::vector<double> residuals;
   ceres::CRSMatrix crs;
   problem_.Evaluate(evaluate, nullptr, &residuals, nullptr, &crs);

@@ -128,7 +128,9 @@ SurveyCalibration calibrateSurvey(const CalibrationRun& run, const SurveyConfig&
   calibration.pings = gatherer.pings().size();
   calibration.warnings = gatherer.faults().lines();
   core::Progress progress(run.progress, "Calibrating", 0, "rounds");
-  calibration.result = calib::calibrate(gatherer.nominal(), gatherer.pings(), gatherer.trajectory(), config.calibration,
+  auto options = config.calibration;
+  options.threads = run.threads;
+  calibration.result = calib::calibrate(gatherer.nominal(), gatherer.pings(), gatherer.trajectory(), options,
                                         [&progress](int done, int total) {
                                           progress.setTotal(total);
                                           progress.update(done);

@@ -8,6 +8,8 @@ namespace s2s::calib {
 
 /// Everything about the estimation; angles in radians.
 struct CalibrationOptions {
+  int threads = 1;  ///< of the solver; no key of the INI
+
   // Data
   int maxEchoes = 120000;         ///< pings are thinned out evenly to stay below this
   double maxBearing_rad = 0.8;    ///< beams further out are not used
