@@ -78,6 +78,41 @@ TEST(Odometry, HighRateTrajectory_FollowsTheTruthBetweenScans) {
   }
 }
 
+TEST(Odometry, EvenMotionFromTheStart_IsNotTakenForRest) {
+  // On flat water an IMU feels nothing of a steady speed.
+  Record record;
+  record.world = canal();
+  record.path = [](double t) {
+    core::Isometry T = core::Isometry::Identity();
+    T.translation() = Eigen::Vector3d(20 + 1.2 * t, 0, 0);
+    return T;
+  };
+  const Replay run = replay(record);
+  const auto& first = run.results.front();
+  // The scans of the first second tell the speed to some cm/s.
+  EXPECT_NEAR(first.velocity_odom.norm(), 1.2, 0.1);
+  // Along and across, as in the other runs of this canal; the height between walls is another test's matter.
+  EXPECT_LT(errorAt(run, record, run.results.size() - 1).translation().head<2>().norm(), 0.1);
+}
+
+TEST(Odometry, RestBeforeSettingOff_TellsTheGyrosBias) {
+  Record record;
+  record.path = [](double t) {
+    const double under_way_s = std::max(0.0, t - 2.5);
+    core::Isometry T = roomPath()(0);
+    // Away at 0.5 m/s^2 for two seconds, turning.
+    const double s = std::min(under_way_s, 2.0);
+    T.translation() += T.linear() * Eigen::Vector3d(0.25 * s * s, 0, 0);
+    T.linear() = T.linear() * Eigen::AngleAxisd(0.1 * s * s, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    return T;
+  };
+  record.duration_s = 8;
+  const Replay run = replay(record);
+  // 1.9 s of rest at 100 Hz and 0.002 rad/s a sample: 0.15 mrad/s; four of these, and three axes.
+  EXPECT_LT((run.results.front().gyroBias_radps - record.noise.gyroBias).norm(), 0.001);
+  EXPECT_LT(run.results.front().velocity_odom.norm(), 0.02);
+}
+
 TEST(Odometry, StandingStill_StartsStaticallyAndDoesNotDrift) {
   Record record;
   record.path = [](double) { return core::isometryFromXyzYpr(0.5, 0.2, 0.8, 0.3, 0.04, -0.06); };
@@ -141,13 +176,17 @@ double lastErrorAlong(const Replay& run, const Record& record) {
 TEST(Odometry, CorridorOverRipples_SonarHoldsTheWayAlong) {
   // Ripples of 10 cm by 1.1 m: slopes of up to 0.29, seen by 600 points of 4 cm ten times a second.
   Record record = overSeabed([](double x, double y) { return -3 + 0.05 * std::sin(2 * M_PI * (x + 0.3 * y) / 1.1); });
-  const Replay with = replay(record);
-  // The map of the seabed is renewed every 3 m, four times on this way; cells with some 50 points tell the way to about
-  // 4 cm / 0.2 / sqrt(cells in sight * 50) < 1 cm. Locked onto the next ripple it would be off by 1.1 m.
-  EXPECT_LT(std::abs(lastErrorAlong(with, record)), 0.1);
-  std::size_t matched = 0;
-  for (const auto& result : with.results) matched += result.seabedMatchCount > 0;
-  EXPECT_GT(matched, with.results.size() * 8 / 10);
+  Replay with;
+  for (const unsigned seed : {2U, 3U, 4U, 1U}) {
+    record.seed = seed;
+    with = replay(record);
+    // The map of the seabed is renewed every 3 m, four times on this way; cells with some 50 points tell the way to
+    // about 4 cm / 0.2 / sqrt(cells in sight * 50) < 1 cm. Locked onto the next ripple it would be off by 1.1 m.
+    EXPECT_LT(std::abs(lastErrorAlong(with, record)), 0.1) << "seed " << seed;
+    std::size_t matched = 0;
+    for (const auto& result : with.results) matched += result.seabedMatchCount > 0;
+    EXPECT_GT(matched, with.results.size() * 8 / 10) << "seed " << seed;
+  }
   const Eigen::Matrix3d R = record.path(record.duration_s).linear();
   const auto along = [&](const Replay& run) {
     return std::sqrt((R * run.results.back().covariance_pose.topLeftCorner<3, 3>() * R.transpose())(0, 0));

@@ -189,5 +189,44 @@ TEST(RemovePretended, NoiseOfNormals_LeavesNothingWhereNoSurfaceFaces) {
   EXPECT_GT(equations.A(1, 1), 1000);
 }
 
+/// Equations of 100 points 10 m around, all seeing along one direction with unit weight, and turns as a room would.
+NormalEquations seeingAlong(const std::vector<Vector3d>& normals) {
+  NormalEquations equations;
+  for (const auto& n : normals) equations.A.topLeftCorner<3, 3>() += 100 * n * n.transpose();
+  equations.A.bottomRightCorner<3, 3>() = 1e4 * Eigen::Matrix3d::Identity();
+  equations.meanLever2_m2 = 100;
+  return equations;
+}
+
+core::Vector6 motionAlong(const Vector3d& direction) {
+  core::Vector6 motion = core::Vector6::Zero();
+  motion.head<3>() = direction;
+  return motion;
+}
+
+TEST(RemoveShared, BothBlindForTheSameMotion_NothingIsLeftOfIt) {
+  // A floor, off level by 50 mm/m, and a wall: blind along x up to that.
+  const Vector3d floor = Vector3d(-0.05, 0, 1).normalized(), blind = Vector3d(1, 0, 0.05).normalized();
+  NormalEquations equations = seeingAlong({floor, Vector3d::UnitY()});
+  const core::Matrix6 before = equations.A;
+  removeShared({motionAlong(blind)}, {motionAlong(Vector3d::UnitX())}, equations);
+  EXPECT_GT(before(0, 0), 0.2);                // what the slope pretended to know of x
+  EXPECT_LT(equations.A.row(0).norm(), 1e-9);  // exact but for rounding
+  // The rest stays: z but for the square of the slope, y and the turns wholly.
+  EXPECT_NEAR(equations.A(2, 2), 100, 0.3);
+  EXPECT_NEAR(equations.A(1, 1), before(1, 1), 1e-9);
+  EXPECT_TRUE(equations.A.bottomRightCorner(3, 3).isApprox(before.bottomRightCorner(3, 3)));
+}
+
+TEST(RemoveShared, BlindForDifferentMotions_NothingChanges) {
+  NormalEquations equations = seeingAlong({Vector3d::UnitZ(), Vector3d::UnitY()});
+  const core::Matrix6 before = equations.A;
+  removeShared({motionAlong(Vector3d::UnitX())}, {motionAlong(Vector3d::UnitY())}, equations);
+  EXPECT_TRUE(equations.A.isApprox(before));
+  removeShared({motionAlong(Vector3d::UnitX())}, {}, equations);
+  removeShared({}, {motionAlong(Vector3d::UnitX())}, equations);
+  EXPECT_TRUE(equations.A.isApprox(before));
+}
+
 }  // namespace
 }  // namespace s2s::odometry

@@ -19,8 +19,8 @@ constexpr double kEarly_s = 1.0;
 constexpr double kImuMemory_s = 0.5;
 /// Acoustic points are kept so long (and while the start is looked at) for the scan of their time.
 constexpr double kAcousticMemory_s = 60.0;
-/// Without IMU these many scans tell the speed at the start.
-constexpr std::size_t kLidarOnlyRehearsal = 4;
+/// Without IMU these many scans tell the speed at the start; fewer than the least tell nothing.
+constexpr std::size_t kLidarOnlyRehearsal = 4, kLeastRehearsal = 3;
 
 OdometryResult skipped(const Scan& scan, OdometryReason reason) {
   OdometryResult result;
@@ -112,6 +112,34 @@ OdometryResult LidarInertialOdometry::process(const Scan& scan) {
   return result;
 }
 
+std::vector<AcousticScan> LidarInertialOdometry::acousticBetween(core::TimeNs after, core::TimeNs until) const {
+  std::vector<AcousticScan> scans;
+  for (const auto& scan : acoustic_)
+    if (scan.time > after && scan.time <= until) scans.push_back(scan);
+  return scans;
+}
+
+StartState LidarInertialOdometry::rehearsedStart(const StartState& rough, const core::Isometry& T_vehicle_imu,
+                                                 bool hasImu, double duration_s) const {
+  const Scan& first = waiting_.front();
+  const core::TimeNs end = first.endTime() + core::durationNs(duration_s);
+  ScanTracker rehearsal(options_, hasImu, T_vehicle_imu);
+  rehearsal.start(rough);
+  std::optional<InertialFilter> early;
+  std::size_t rehearsed = 0;
+  core::TimeNs lastEnd = first.time;
+  for (const Scan& scan : waiting_) {
+    if (scan.endTime() > end || (!hasImu && rehearsed == kLidarOnlyRehearsal)) break;
+    if (scan.points_sensor.empty() || scan.endTime() <= lastEnd) continue;
+    rehearsal.track(scan, imu_, acousticBetween(lastEnd, scan.endTime()));
+    lastEnd = scan.endTime();
+    ++rehearsed;
+    if (!early && core::secondsBetween(first.time, lastEnd) >= kEarly_s) early = rehearsal.filter();
+  }
+  if (rehearsed < kLeastRehearsal) return rough;
+  return refinedStart(rough, early.value_or(rehearsal.filter()), rehearsal.filter(), imu_, options_);
+}
+
 bool LidarInertialOdometry::tryStart() {
   const Scan& first = waiting_.front();
   const core::TimeNs windowEnd = first.endTime() + core::durationNs(options_.initialisation_s);
@@ -130,27 +158,14 @@ bool LidarInertialOdometry::tryStart() {
     imu_ = ImuBuffer();
   }
   const core::Isometry T_vehicle_imu = hasImu ? imu_.samples().front().T_vehicle_imu : core::Isometry::Identity();
-  const StartState rough =
+  StartState rough =
       hasImu ? inertialStart(imu_, first.time, windowEnd, options_) : lidarOnlyStart(first.time, options_);
-
-  ScanTracker rehearsal(options_, hasImu, T_vehicle_imu);
-  rehearsal.start(rough);
-  std::optional<InertialFilter> early;
-  std::size_t rehearsed = 0;
-  core::TimeNs lastEnd = first.time;
-  for (const Scan& scan : waiting_) {
-    if (scan.endTime() > windowEnd || (!hasImu && rehearsed == kLidarOnlyRehearsal)) break;
-    if (scan.points_sensor.empty() || scan.endTime() <= lastEnd) continue;
-    rehearsal.track(scan, imu_, {});
-    lastEnd = scan.endTime();
-    ++rehearsed;
-    if (!early && core::secondsBetween(first.time, lastEnd) >= kEarly_s) early = rehearsal.filter();
+  if (rough.isStatic) {
+    const StartState moving = inEvenMotion(rough, options_);
+    if (deniesRest(rehearsedStart(moving, T_vehicle_imu, hasImu, kEarly_s))) rough = moving;
   }
-  const StartState start =
-      rehearsed >= 3 ? refinedStart(rough, early.value_or(rehearsal.filter()), rehearsal.filter(), imu_, options_)
-                     : rough;
   tracker_ = std::make_unique<ScanTracker>(options_, hasImu, T_vehicle_imu);
-  tracker_->start(start);
+  tracker_->start(rehearsedStart(rough, T_vehicle_imu, hasImu, options_.initialisation_s));
   trajectory_.append(first.time, tracker_->T_odom_vehicle());
   return true;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <algorithm>
 
 namespace s2s::odometry {
@@ -23,6 +24,8 @@ constexpr double kMedianOfAbs = 0.6745;
 constexpr double kLeastScale = 0.5;
 /// Least share of an unknown motion that may show in directions that are seen.
 constexpr double kUnseenLeak = 0.01;
+/// Singular values below this are noise of the directions, and the cosine above which two directions are the same.
+constexpr double kLeastSingular = 0.3, kSame = 0.9;
 /// The share of the prior in the kernel's width falls by this from one iteration to the next.
 constexpr double kPriorFade = 0.1;
 
@@ -99,6 +102,15 @@ class PretendedSum {
   Matrix3d second_ = Matrix3d::Zero();
   Matrix6 outer_ = Matrix6::Zero();
 };
+
+/// Orthonormal basis of motions, in coordinates scaled by `scale`.
+Eigen::MatrixXd basisOf(const std::vector<Vector6>& motions, const Vector6& scale) {
+  Eigen::MatrixXd columns(6, static_cast<Eigen::Index>(motions.size()));
+  for (std::size_t i = 0; i < motions.size(); ++i)
+    columns.col(static_cast<Eigen::Index>(i)) = scale.cwiseProduct(motions[i]).stableNormalized();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeThinU);
+  return svd.matrixU().leftCols((svd.singularValues().array() > kLeastSingular).count());
+}
 
 Vector6 differenceFrom(const core::Isometry& prior, const core::Isometry& T) {
   Vector6 e;
@@ -180,8 +192,28 @@ void allowForUnseen(const std::vector<Vector6>& unseen, const Matrix6& priorCova
   equations.A -= (gain * equations.A).eval();
 }
 
+void removeShared(const std::vector<Vector6>& unseen, const std::vector<Vector6>& unseenByOther,
+                  NormalEquations& equations) {
+  if (unseen.empty() || unseenByOther.empty()) return;
+  const double lever = std::sqrt(equations.meanLever2_m2);
+  Vector6 scale;
+  scale << Vector3d::Ones(), Vector3d::Constant(std::max(lever, 1e-3));
+  const Eigen::MatrixXd other = basisOf(unseenByOther, scale);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(other.transpose() * basisOf(unseen, scale), Eigen::ComputeThinU);
+  Matrix6 keep = Matrix6::Identity();
+  for (Eigen::Index i = 0; i < svd.singularValues().size(); ++i) {
+    if (svd.singularValues()[i] < kSame) continue;
+    const Vector6 shared = other * svd.matrixU().col(i);
+    keep -= shared * shared.transpose();
+  }
+  const Matrix6 byMotion = scale.cwiseInverse().asDiagonal() * keep * scale.asDiagonal();
+  equations.A = (byMotion.transpose() * equations.A * byMotion).eval();
+  equations.b = (byMotion.transpose() * equations.b).eval();
+}
+
 RegistrationResult registerPoints(const BodyPoints& points, const PlaneMap& map, const PoseBelief& prior,
-                                  const core::Isometry& T_start, const RegistrationOptions& options) {
+                                  const core::Isometry& T_start, const RegistrationOptions& options,
+                                  const std::vector<Vector6>& unseenByOther) {
   RegistrationResult result;
   result.pose = prior;
   const Matrix6 priorInformation = prior.covariance.ldlt().solve(Matrix6::Identity());
@@ -197,6 +229,7 @@ RegistrationResult registerPoints(const BodyPoints& points, const PlaneMap& map,
       return result;
     }
     result.degenerateMotions = removePretended(equations, options.degeneracyRatio);
+    removeShared(result.degenerateMotions, unseenByOther, equations);
     allowForUnseen(result.degenerateMotions, prior.covariance, equations);
     result.information = equations.A;
     const Vector6 e = differenceFrom(prior.T_map_body, T);

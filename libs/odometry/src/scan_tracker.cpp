@@ -1,6 +1,5 @@
 #include "scan_tracker.h"
 
-#include <Eigen/SVD>
 #include <algorithm>
 
 #include "s2s/odometry/deskew.h"
@@ -21,9 +20,6 @@ constexpr double kRedeskew_m = 0.01;
 /// most that is allowed for: near the vessel more would let the water in.
 constexpr double kTiltDoubt = 2.0;
 constexpr double kMostTiltDoubt_rad = 4.0e-3;
-/// Singular values below this are noise of the directions, and the share of a motion that may lie among those that a
-/// second sensor does not see, if that one is to be asked about it.
-constexpr double kLeastSingular = 0.3, kMostCovered = 0.5;
 /// Overlap of scans that deskewing allows for.
 constexpr double kRecent_s = 1.0;
 
@@ -43,24 +39,6 @@ Matrix6 adjoint(const Isometry& T) {
   A.topLeftCorner<3, 3>() = A.bottomRightCorner<3, 3>() = T.linear();
   A.topRightCorner<3, 3>() = core::skew(T.translation()) * T.linear();
   return A;
-}
-
-/// Whether some motion of `unseen` lies outside of what a second sensor does not see either, by more than the noise of
-/// directions. Two sensors blind for the same motion, each a little off in its direction, would otherwise between them
-/// pretend to know what neither sees.
-bool tellsMore(const std::vector<core::Vector6>& unseen, const std::vector<core::Vector6>& unseenByOther) {
-  if (unseen.empty() || unseenByOther.empty()) return true;
-  Eigen::MatrixXd blind(3, static_cast<Eigen::Index>(unseenByOther.size()));
-  for (std::size_t i = 0; i < unseenByOther.size(); ++i)
-    blind.col(static_cast<Eigen::Index>(i)) = unseenByOther[i].head<3>().stableNormalized();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(blind, Eigen::ComputeThinU);
-  return std::any_of(unseen.begin(), unseen.end(), [&](const core::Vector6& motion) {
-    const Vector3d way = motion.head<3>().stableNormalized();
-    double covered = 0;
-    for (Eigen::Index i = 0; i < svd.singularValues().size(); ++i)
-      if (svd.singularValues()[i] > kLeastSingular) covered += std::pow(svd.matrixU().col(i).dot(way), 2);
-    return covered < kMostCovered;
-  });
 }
 
 double pointVariance(double range_m, const RegistrationOptions& options) {
@@ -291,8 +269,8 @@ void ScanTracker::useSeabed(const std::vector<AcousticScan>& acoustic, const std
   RegistrationOptions options = options_.registration;
   options.minMatches = options_.seabed.minMatches;
   options.correlation = options_.seabed.correlation;
-  const RegistrationResult fit = registerPoints(points, seabed_, prior, prior.T_map_body, options);
-  if (fit.end != RegistrationEnd::tooFewMatches && tellsMore(unseen, fit.degenerateMotions)) {
+  const RegistrationResult fit = registerPoints(points, seabed_, prior, prior.T_map_body, options, unseen);
+  if (fit.end != RegistrationEnd::tooFewMatches) {
     filter_.setPosePosterior(fit.pose.T_map_body, fit.pose.covariance);
     result.seabedMatchCount = fit.matches;
     if (result.status == OdometryStatus::deadReckoned) {

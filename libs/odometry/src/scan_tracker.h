@@ -51,7 +51,7 @@ class ScanTracker {
   /// vehicle's pose.
   core::Matrix6 vehicleByImuError() const;
   /// Updates the filter by registering the acoustic points to the map of the seabed, and takes them into it.
-  /// @param unseen motions that the LiDAR scan did not see; left out if the sonars see none of these either
+  /// @param unseen motions that the LiDAR scan did not see: where the sonars hardly do either, nothing is believed
   void useSeabed(const std::vector<AcousticScan>& acoustic, const std::vector<NavState>& path,
                  const std::vector<core::Vector6>& unseen, OdometryResult& result);
   /// All points in the vehicle's frame at the path's end, thinned, with their variances.

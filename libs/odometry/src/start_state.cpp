@@ -1,5 +1,7 @@
 #include "start_state.h"
 
+#include <Eigen/Eigenvalues>
+
 #include "s2s/odometry/heave_fit.h"
 
 namespace s2s::odometry {
@@ -14,6 +16,13 @@ constexpr double kStillGyro_radps = 0.006;
 constexpr double kStillAccel_mps2 = 0.08;
 /// A gyro mean above this is a turn rather than a bias.
 constexpr double kMostBias_radps = 0.03;
+/// Rest shorter than this tells nothing, and the share of a rest that is used if it ends by motion, which shows late.
+constexpr double kLeastStill_s = 1.0;
+constexpr double kStillShare = 0.75;
+/// Squared Mahalanobis distance (3 degrees of freedom, 99.9 %) above which the scans deny that a speed is zero.
+constexpr double kMostRestMisfit = 16.3;
+/// A speed known worse than the first is not told by the scans; the second is that of a vessel that lies about still.
+constexpr double kUntoldSpeedSigma_mps = 0.15, kRestSpeedSigma_mps = 0.2;
 
 constexpr double kPoseSigma = 1e-4;  // the first pose defines the frame [m, rad]
 constexpr double kStillSpeedSigma_mps = 0.02;
@@ -40,32 +49,53 @@ std::vector<ImuSample> samplesWithin(const ImuBuffer& imu, core::TimeNs start, c
   return samples;
 }
 
-struct Spread {
-  Vector3d mean = Vector3d::Zero();
-  double sigma = 0;  // of the worst axis
+/// Mean and standard deviation of readings that come one by one.
+class Spread {
+ public:
+  void add(const Vector3d& reading) {
+    ++count_;
+    sum_ += reading;
+    squares_ += reading.cwiseAbs2();
+  }
+  Vector3d mean() const { return sum_ / count_; }
+  /// Of the worst axis.
+  double sigma() const { return std::sqrt(std::max(0.0, (squares_ / count_ - mean().cwiseAbs2()).maxCoeff())); }
+
+ private:
+  double count_ = 0;
+  Vector3d sum_ = Vector3d::Zero(), squares_ = Vector3d::Zero();
 };
 
-Spread spreadOf(const std::vector<ImuSample>& samples, Vector3d ImuSample::*reading) {
-  Spread spread;
-  Vector3d squares = Vector3d::Zero();
-  for (const auto& sample : samples) {
-    spread.mean += sample.*reading;
-    squares += (sample.*reading).cwiseAbs2();
+/// Number of the first samples during which the IMU felt no motion; 0 if that is too short to tell.
+std::size_t stillCount(const std::vector<ImuSample>& samples) {
+  const auto sinceFirst_s = [&](std::size_t i) { return core::secondsBetween(samples.front().time, samples[i].time); };
+  const double least_s = std::min(kLeastStill_s, sinceFirst_s(samples.size() - 1));
+  Spread rate, force;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    rate.add(samples[i].angularRate_radps);
+    force.add(samples[i].specificForce_mps2);
+    if (sinceFirst_s(i) < least_s) continue;
+    const bool isStill =
+        rate.sigma() < kStillGyro_radps && force.sigma() < kStillAccel_mps2 && rate.mean().norm() < kMostBias_radps;
+    if (isStill) continue;
+    const auto used = static_cast<std::size_t>(kStillShare * static_cast<double>(i));
+    return sinceFirst_s(used) < least_s ? 0 : used;
   }
-  const auto count = static_cast<double>(samples.size());
-  spread.mean /= count;
-  spread.sigma = std::sqrt(std::max(0.0, (squares / count - spread.mean.cwiseAbs2()).maxCoeff()));
-  return spread;
+  return samples.size();
 }
 
+/// Of the rest that the window begins with; if there is none, of the whole window.
 WindowMeans meansOf(const ImuBuffer& imu, core::TimeNs start, core::TimeNs end) {
-  const auto samples = samplesWithin(imu, start, end);
-  const Spread rate = spreadOf(samples, &ImuSample::angularRate_radps);
-  const Spread force = spreadOf(samples, &ImuSample::specificForce_mps2);
+  auto samples = samplesWithin(imu, start, end);
   WindowMeans means;
-  means.isStatic =
-      rate.sigma < kStillGyro_radps && force.sigma < kStillAccel_mps2 && rate.mean.norm() < kMostBias_radps;
-  if (means.isStatic) means.gyroBias = rate.mean;
+  const std::size_t still = stillCount(samples);
+  means.isStatic = still > 0;
+  if (means.isStatic) {
+    samples.resize(still);
+    Spread rate;
+    for (const auto& sample : samples) rate.add(sample.angularRate_radps);
+    means.gyroBias = rate.mean();
+  }
   means.T_vehicle_imu = samples.back().T_vehicle_imu;
   Matrix3d R_start_imu = Matrix3d::Identity();
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -113,6 +143,22 @@ void useHeave(const core::Isometry& T_imu_vehicle, const ImuBuffer& imu, core::T
   start.heaveSigma_m = fit.heaveSigma_m;
 }
 
+/// A vessel is taken to lie about still when its record begins, in those directions in which no scan tells its speed.
+void assumeRest(const OdometryOptions& options, StartState& start) {
+  if (!options.water.velocityPrior) return;
+  auto covariance = start.covariance.block<3, 3>(kVelocity, kVelocity);
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(Matrix3d{covariance});
+  for (int i = 0; i < 3; ++i) {
+    const double variance = solver.eigenvalues()[i], rest = kRestSpeedSigma_mps * kRestSpeedSigma_mps;
+    if (variance < kUntoldSpeedSigma_mps * kUntoldSpeedSigma_mps) continue;
+    const Vector3d axis = solver.eigenvectors().col(i);
+    const double speed = axis.dot(start.state.velocity), gain = variance / (variance + rest);
+    if (speed * speed > kMostRestMisfit * (variance + rest)) continue;
+    start.state.velocity -= gain * speed * axis;
+    covariance -= gain * variance * axis * axis.transpose();
+  }
+}
+
 }  // namespace
 
 Matrix3d levelRotation(const Vector3d& up_body) {
@@ -154,6 +200,19 @@ StartState inertialStart(const ImuBuffer& imu, core::TimeNs startTime, core::Tim
   setGravity(start, options.imu.gravity_mps2, start.isStatic ? kTiltAccelStill_mps2 : kTiltAccelMoving_mps2);
   useHeave(means.T_vehicle_imu.inverse(), imu, end, options, start);
   return start;
+}
+
+StartState inEvenMotion(const StartState& atRest, const OdometryOptions& options) {
+  StartState start = atRest;
+  start.isStatic = false;
+  setSigma(start, kVelocity, options.motion.initialSpeedSigma_mps);
+  return start;
+}
+
+bool deniesRest(const StartState& start) {
+  const Matrix3d covariance = start.covariance.block<3, 3>(kVelocity, kVelocity) +
+                              kStillSpeedSigma_mps * kStillSpeedSigma_mps * Matrix3d::Identity();
+  return start.state.velocity.dot(covariance.ldlt().solve(start.state.velocity)) > kMostRestMisfit;
 }
 
 StartState lidarOnlyStart(core::TimeNs startTime, const OdometryOptions& options) {
@@ -215,6 +274,7 @@ StartState refinedStart(const StartState& rough, const InertialFilter& early, co
   // Where nothing in sight tells the speed in some direction, the rehearsal has not learnt it either.
   start.covariance.block<3, 3>(kVelocity, kVelocity) +=
       R_new_old * early.covariance().block<3, 3>(kVelocity, kVelocity) * R_new_old.transpose();
+  assumeRest(options, start);
   useHeave(T_imu_vehicle, imu, end.time, options, start);
   return start;
 }

@@ -11,15 +11,22 @@ struct StartState {
   NavState state;
   ErrorMatrix covariance = ErrorMatrix::Zero();
   double heaveSigma_m = 0;  ///< of the heave that the IMU felt; 0: not known
-  bool isStatic = false;    ///< the IMU felt no motion
+  bool isStatic = false;    ///< the vehicle lies still at first
 };
 
 /// First belief with an IMU: up is the mean specific force from `start` to `end`, rotated back to `start` by the gyro.
-/// At rest the gyro's bias is its mean reading, and the speed is zero; in motion both are open.
+/// If the IMU feels no motion at first, only that rest counts: the gyro's bias is its mean reading, and the speed is
+/// zero; in motion both are open.
 StartState inertialStart(const ImuBuffer& imu, core::TimeNs start, core::TimeNs end, const OdometryOptions& options);
 
 /// First belief without IMU.
 StartState lidarOnlyStart(core::TimeNs start, const OdometryOptions& options);
+
+/// An IMU feels rest and even motion alike: a first belief of rest, with the speed left open.
+StartState inEvenMotion(const StartState& atRest, const OdometryOptions& options);
+
+/// Whether a belief that was refined by scans holds a speed that cannot be zero.
+bool deniesRest(const StartState& start);
 
 /// Improves a first belief by what the filter knew when it had run once over the first scans: gravity and biases from
 /// its end, the speed from early on, where less of the way back to the start has to be reckoned.

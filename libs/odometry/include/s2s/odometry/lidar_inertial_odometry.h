@@ -13,6 +13,7 @@
 namespace s2s::odometry {
 
 class ScanTracker;
+struct StartState;
 
 /// Motion of the vehicle from LiDAR scans and, where there is one, an IMU.
 ///
@@ -65,6 +66,9 @@ class LidarInertialOdometry {
  private:
   bool isReady(const Scan& scan) const;
   bool tryStart();
+  StartState rehearsedStart(const StartState& rough, const core::Isometry& T_vehicle_imu, bool hasImu,
+                            double duration_s) const;
+  std::vector<AcousticScan> acousticBetween(core::TimeNs after, core::TimeNs until) const;
   OdometryResult process(const Scan& scan);
 
   OdometryOptions options_;

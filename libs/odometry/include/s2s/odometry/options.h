@@ -94,16 +94,16 @@ struct WaterOptions {
 };
 
 /// Registration of what the sonars see to a map of its own, after the LiDAR's. Over open water it alone tells how the
-/// vehicle moves. It is left out where the sonars are blind for the very motions that the LiDAR does not see.
+/// vehicle moves. Motions that neither sees are left to the IMU.
 struct SeabedOptions {
   bool enabled = true;
   /// One level: at a coarser one ripples would pass for a flat seabed, and it is they that tell the motion. The planes'
   /// thickness is the noise of the acoustic points.
   PlaneMapOptions map{0.4, 1, 12, 300, 0.12, 40.0, 0.02};
-  double pointVoxel_m = 0.2;   ///< one point in each such cube is used
+  double pointVoxel_m = 0.1;   ///< one point in each such cube is used
   double leastSigma_m = 0.04;  ///< no acoustic point is believed better than this
   int minMatches = 40;
-  double correlation = 10.0;  ///< points of one ping share more errors than those of a sweep
+  double correlation = 60.0;  ///< points of one ping share more errors than those of a sweep
 };
 
 /// Use of the IMU.

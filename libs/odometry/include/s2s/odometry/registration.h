@@ -63,6 +63,16 @@ NormalEquations linearise(const BodyPoints& points, const PlaneMap& map, const c
 /// is reduced to mu - ratio, and to zero if it would be negative; the gradient shrinks alike.
 std::vector<core::Vector6> removePretended(NormalEquations& equations, double ratio);
 
+/// Takes out of the equations the motions that another sensor does not see and these equations hardly see either: two
+/// sensors blind for the same motion, each a little off in its direction, would otherwise between them pretend to know
+/// what neither sees.
+/// @param unseen         by these equations
+/// @param unseenByOther  motions of the other sensor's that are within some 25 degrees (at the points' mean distance)
+/// of
+///                       `unseen` are taken out exactly
+void removeShared(const std::vector<core::Vector6>& unseen, const std::vector<core::Vector6>& unseenByOther,
+                  NormalEquations& equations);
+
 /// Weakens what a scan says where much is unknown along unseen motions: their directions come from the map and are off
 /// by as much as the noise of the normals leaves, so that an error along them shows in the others, again and again the
 /// same way. Without this the filter would believe, scan by scan, to know what nothing in sight tells.
@@ -71,7 +81,9 @@ void allowForUnseen(const std::vector<core::Vector6>& unseen, const core::Matrix
 
 /// Most probable pose given a prior and the scan's points on the map's planes (iterated, with the points matched anew
 /// in each iteration), and its covariance: the update of an iterated Kalman filter in its pose block.
+/// @param unseenByOther  motions that a sensor whose update is in the prior did not see (`removeShared`)
 RegistrationResult registerPoints(const BodyPoints& points, const PlaneMap& map, const PoseBelief& prior,
-                                  const core::Isometry& T_start, const RegistrationOptions& options);
+                                  const core::Isometry& T_start, const RegistrationOptions& options,
+                                  const std::vector<core::Vector6>& unseenByOther = {});
 
 }  // namespace s2s::odometry
