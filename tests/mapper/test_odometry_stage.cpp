@@ -10,7 +10,9 @@ constexpr core::TimeNs kStart = 1'733'400'000'000'000'000;
 TEST(OdometryStage, NoLidar_PingsAreGivenUpInsteadOfKept) {
   FaultLog faults;
   std::vector<core::TimeNs> abandoned;
-  OdometryStage stage({}, faults, [&](const OdometryUpdate& update) { abandoned.push_back(update.abandonedUntil); });
+  const OdometryStage::Options options;
+  OdometryStage stage(options, faults,
+                      [&](const OdometryUpdate& update) { abandoned.push_back(update.abandonedUntil); });
   core::TimeNs newest = 0;
   for (int i = 0; i < 3000; ++i) {
     newest = kStart + core::durationNs(0.1 * i);

@@ -142,7 +142,7 @@ void OdometryStage::handle(const odometry::OdometryResult& result) {
     imuCalibration_ = result.imu;
     sweepPoses_.append(result.time, result.T_odom_vehicle);
     posesUntil_ = std::max(posesUntil_, result.time);
-    water_.add(result.time, (result.T_odom_vehicle * Eigen::Vector3d(0, 0, options_.mapper.waterline_m)).z());
+    water_.add(result.time, result.T_odom_vehicle * Eigen::Vector3d(0, 0, options_.mapper.waterline_m));
     if (keyframePolicy_.accept(result.T_odom_vehicle)) update.keyframe = makeKeyframe(result, *sweep);
     update.fixes = placedFixes(result.time);
     odometry_.forgetTrajectoryBefore(result.time - core::durationNs(kTrajectoryMemory_s));
@@ -175,20 +175,19 @@ std::shared_ptr<KeyframeData> OdometryStage::makeKeyframe(const odometry::Odomet
   keyframe->hasGravity = result.hasGravity;
   keyframe->up_vehicle = result.T_odom_vehicle.linear().transpose() * result.up_odom;
   keyframe->gravitySigma_rad = result.gravitySigma_rad;
-  keyframe->waterHeight_odom_m = water_.height_m();
-  keyframe->points = scanPoints(deskewed(sweep, result.time));
-
-  const double lowest_m = options_.mapper.onWater ? water_.height_m() + options_.mapper.waterMargin_m
-                                                  : -std::numeric_limits<double>::infinity();
+  odometry::DeskewOptions options = options_.deskew;
+  options.filter = options_.odometry.scan;
+  options.up = result.up_odom;
+  if (options_.mapper.onWater) options.lowestHeight_m = water_.height_m(options.up) + options_.mapper.waterMargin_m;
+  keyframe->points = scanPoints(deskewed(sweep, result.time, options));
   for (const Eigen::Vector3f& p : result.points_vehicle)
-    if ((result.T_odom_vehicle * p.cast<double>()).z() > lowest_m) keyframe->registrationPoints_vehicle.push_back(p);
+    if (!(options.up.dot(result.T_odom_vehicle * p.cast<double>()) < options.lowestHeight_m))
+      keyframe->registrationPoints_vehicle.push_back(p);
   return keyframe;
 }
 
-odometry::DeskewedCloud OdometryStage::deskewed(const mrpt::obs::CObservation& sweep, core::TimeNs reference) const {
-  odometry::DeskewOptions options = options_.deskew;
-  options.filter = options_.odometry.scan;
-  if (options_.mapper.onWater) options.lowestHeight_m = water_.height_m() + options_.mapper.waterMargin_m;
+odometry::DeskewedCloud OdometryStage::deskewed(const mrpt::obs::CObservation& sweep, core::TimeNs reference,
+                                                const odometry::DeskewOptions& options) const {
   if (const auto* organised = dynamic_cast<const obs::CObservationLidarSweep*>(&sweep))
     return odometry::deskewSweep(*organised, odometry_.trajectory(), reference, options);
   return odometry::deskewCloud(dynamic_cast<const mrpt::obs::CObservationPointCloud&>(sweep), odometry_.trajectory(),

@@ -23,8 +23,8 @@ class CloudFiller {
   CloudFiller(const DeskewOptions& options, const core::Isometry& T_frame_vehicle, DeskewedCloud& cloud)
       : options_(options),
         hasLowest_(std::isfinite(options.lowestHeight_m)),
-        up_vehicle_(T_frame_vehicle.linear().row(2).transpose().cast<float>()),
-        height_(static_cast<float>(T_frame_vehicle.translation().z() - options.lowestHeight_m)),
+        up_vehicle_((T_frame_vehicle.linear().transpose() * options.up).cast<float>()),
+        height_(static_cast<float>(options.up.dot(T_frame_vehicle.translation()) - options.lowestHeight_m)),
         cloud_(cloud) {}
 
   void add(const Eigen::Vector3f& p_vehicle, float range_m, float reflectivity) {

@@ -28,7 +28,6 @@ struct KeyframeData {
   double gravitySigma_rad = 0;
   std::vector<Eigen::Vector3f> registrationPoints_vehicle;  ///< few, for loop closures
   std::vector<map::ScanPoint> points;                       ///< all, for the map
-  double waterHeight_odom_m = 0;                            ///< as estimated by then
 };
 
 /// Progress of the odometry after one sweep, or, where no sweep has given a pose for long, what it gave up.

@@ -59,7 +59,8 @@ class OdometryStage {
   void handle(const odometry::OdometryResult& result);
   std::shared_ptr<KeyframeData> makeKeyframe(const odometry::OdometryResult& result,
                                              const mrpt::obs::CObservation& sweep);
-  odometry::DeskewedCloud deskewed(const mrpt::obs::CObservation& sweep, core::TimeNs reference) const;
+  odometry::DeskewedCloud deskewed(const mrpt::obs::CObservation& sweep, core::TimeNs reference,
+                                   const odometry::DeskewOptions& options) const;
   /// The waiting fixes that the trajectory covers, with their poses.
   std::vector<graph::GnssFix> placedFixes(core::TimeNs until);
   void reportFaults();

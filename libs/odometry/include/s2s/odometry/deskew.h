@@ -48,8 +48,9 @@ struct DeskewOptions {
   ScanOptions filter;  ///< range limits and hull box; strides are not used
   double rangeSigma_m = 0.02;
   double angleSigma_rad = 0.5e-3;
-  /// Points lower than this in the trajectory's frame are left out (the water's surface there); NaN: none.
+  /// Points lower than this along `up`, both in the trajectory's frame, are left out (the water's surface); NaN: none.
   double lowestHeight_m = std::numeric_limits<double>::quiet_NaN();
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
 };
 
 /// Every usable return of a sweep's first echo, in the vehicle's frame at `reference`.
