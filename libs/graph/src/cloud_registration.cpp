@@ -1,11 +1,10 @@
 #include "s2s/graph/cloud_registration.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <nanoflann.hpp>
 
-#include "s2s/odometry/registration.h"
+#include "point_to_plane.h"
 
 namespace s2s::graph {
 
@@ -28,7 +27,7 @@ constexpr double kPlaneThickness = 0.25;
 
 struct FittedPlane {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
-  double tiltVariance_rad2 = 0;
+  double tiltVariance_rad2 = 0, variance_m2 = 0;
 };
 
 FittedPlane fitPlane(const Cloud& points, const std::uint32_t* indices, std::size_t count) {
@@ -47,7 +46,8 @@ FittedPlane fitPlane(const Cloud& points, const std::uint32_t* indices, std::siz
   if (spread[0] >= kPlaneThickness * kPlaneThickness * spread[1]) return plane;
   plane.normal = eigen.eigenvectors().col(0).cast<float>();
   // Variance across the plane over the scatter along it, as for the slope of a fitted line.
-  plane.tiltVariance_rad2 = spread[0] / static_cast<double>(count - 3) / spread[1];
+  plane.variance_m2 = spread[0] / static_cast<double>(count - 3);
+  plane.tiltVariance_rad2 = plane.variance_m2 / spread[1];
   return plane;
 }
 
@@ -60,19 +60,11 @@ struct Partners {
 void addPartner(const Eigen::Vector3d& point, const core::Isometry& T, const RegistrationTarget::Plane& plane,
                 double scale_m, Partners& partners) {
   const double residual = plane.normal.dot(T * point - plane.point);
-  const Eigen::Vector3d normal_source = T.linear().transpose() * plane.normal;
-  Eigen::Matrix<double, 6, 3> byNormal;
-  byNormal << Eigen::Matrix3d::Identity(), core::skew(point);
-  const core::Vector6 h = byNormal * normal_source;
   const double ratio = residual / scale_m;
   const double weight = 1 / ((1 + ratio * ratio) * (1 + ratio * ratio));
-  const Eigen::Matrix3d tangent = Eigen::Matrix3d::Identity() - normal_source * normal_source.transpose();
-  partners.equations.A += weight * h * h.transpose();
-  partners.equations.b += weight * residual * h;
-  partners.equations.pretended += weight * plane.tiltVariance_rad2 * byNormal * tangent * byNormal.transpose();
-  partners.equations.meanLever2_m2 += point.squaredNorm();
+  addPointToPlane(point, T.linear().transpose() * plane.normal, residual, weight, plane.tiltVariance_rad2,
+                  partners.equations);
   partners.squares += residual * residual;
-  ++partners.equations.matches;
 }
 
 Partners findPartners(const RegistrationTarget& target, const Cloud& source, const core::Isometry& T, double distance_m,
@@ -87,25 +79,13 @@ Partners findPartners(const RegistrationTarget& target, const Cloud& source, con
   return partners;
 }
 
-/// Gauss-Newton step in the directions that the equations determine, and no motion in the others.
-core::Vector6 determinedStep(const odometry::NormalEquations& equations) {
-  core::Matrix6 A = equations.A;
-  A.diagonal().array() += 1e-9 * A.trace() + 1e-12;
-  return -A.ldlt().solve(equations.b);
-}
-
-/// Inverse of the determined information, very wide where there is none.
 core::Matrix6 covarianceOf(const Partners& partners, const RegistrationOptions& options) {
-  constexpr double kUnknown_m = 10, kUnknown_rad = 0.3;
   const double count = static_cast<double>(std::max<std::size_t>(partners.equations.matches, 1));
   const double variance = std::max(partners.squares / count, 1e-4) * options.correlatedPoints;
-  core::Matrix6 information = partners.equations.A / variance;
-  information.diagonal().head<3>().array() += 1 / (kUnknown_m * kUnknown_m);
-  information.diagonal().tail<3>().array() += 1 / (kUnknown_rad * kUnknown_rad);
-  core::Matrix6 covariance = information.ldlt().solve(core::Matrix6::Identity());
-  covariance.diagonal().head<3>().array() += options.floorTranslation_m * options.floorTranslation_m;
-  covariance.diagonal().tail<3>().array() += options.floorRotation_rad * options.floorRotation_rad;
-  return 0.5 * (covariance + covariance.transpose());
+  core::Vector6 floorSigma;
+  floorSigma << Eigen::Vector3d::Constant(options.floorTranslation_m),
+      Eigen::Vector3d::Constant(options.floorRotation_rad);
+  return covarianceFrom(partners.equations.A / variance, floorSigma);
 }
 
 RegistrationStatus judge(const RegistrationResult& result, const RegistrationOptions& options) {
@@ -139,7 +119,7 @@ struct RegistrationTarget::Index {
 };
 
 RegistrationTarget::RegistrationTarget(const Cloud& points, const RegistrationOptions& options)
-    : points_(voxelDownsample(points, options.voxel_m)) {
+    : points_(options.voxel_m > 0 ? voxelDownsample(points, options.voxel_m) : points) {
   if (points_.empty()) return;
   index_ = std::make_unique<Index>(points_);
   const auto neighbours = static_cast<std::size_t>(options.normalNeighbours);
@@ -151,6 +131,7 @@ RegistrationTarget::RegistrationTarget(const Cloud& points, const RegistrationOp
     const FittedPlane plane = found < 5 ? FittedPlane() : fitPlane(points_, indices.data(), found);
     normals_.push_back(plane.normal);
     tiltVariances_rad2_.push_back(static_cast<float>(plane.tiltVariance_rad2));
+    variances_m2_.push_back(static_cast<float>(plane.variance_m2));
   }
 }
 
@@ -166,6 +147,8 @@ bool RegistrationTarget::nearestPlane(const Eigen::Vector3d& query, double dista
   plane.point = points_[nearest].cast<double>();
   plane.normal = normals_[nearest].cast<double>();
   plane.tiltVariance_rad2 = tiltVariances_rad2_[nearest];
+  plane.variance_m2 = variances_m2_[nearest];
+  plane.index = nearest;
   return true;
 }
 
@@ -183,8 +166,7 @@ RegistrationResult registerCloud(const RegistrationTarget& target, const Cloud& 
     Partners partners = findPartners(target, source, result.T_target_source, distance_m, scale_m, stride);
     odometry::removePretended(partners.equations, options.degeneracyRatio);
     const core::Vector6 step = determinedStep(partners.equations);
-    result.T_target_source.translate(Eigen::Vector3d(step.head<3>()));
-    result.T_target_source.rotate(core::expSo3(step.tail<3>()));
+    applyStep(step, result.T_target_source);
     const bool settled = step.head<3>().norm() < 0.02 * distance_m && step.tail<3>().norm() < 0.002 * distance_m;
     if (fine && step.head<3>().norm() < 5e-4 && step.tail<3>().norm() < 5e-5) break;
     if (!fine && settled) distance_m = std::max(0.6 * distance_m, options.finePartner_m);

@@ -10,6 +10,7 @@
 #include "s2s/core/error.h"
 #include "s2s/graph/factors/gnss_factor.h"
 #include "s2s/graph/mrpt_network.h"
+#include "sonar_search.h"
 #include "survey_problem.h"
 
 namespace s2s::graph {
@@ -49,14 +50,17 @@ class GraphSlam::Impl {
  public:
   Impl(const GraphSlamOptions& options, std::unique_ptr<PriorMap> prior)
       : options_(options),
-        consistency_(options.consistency),
+        lidar_(options.consistency),
+        acoustic_(options.consistency),
         search_(options.loops, options.places),
         verifier_(options.loops, options.registration),
         falseClosures_(options.falseClosures, options.loops, options.consistency, options.registration),
-        relocaliser_(std::move(prior), options.relocation, options.consistency) {}
+        relocaliser_(std::move(prior), options.relocation, options.consistency),
+        sonar_(options.sonar) {}
 
   KeyframeUpdate addKeyframe(const KeyframeInput& input);
   void addGnss(const GnssFix& fix);
+  void addSubmap(const AcousticSubmap& submap);
   ClosureStatus offerClosure(const LoopClosure& closure);
   SolveSummary optimizeNow();
   GraphStatistics statistics() const;
@@ -71,21 +75,29 @@ class GraphSlam::Impl {
  private:
   void appendKeyframe(const KeyframeInput& input);
   void searchClosures(KeyframeUpdate& update);
-  void consider(LoopClosure closure);
-  int applyChoice();
+  /// Closures of one kind, and which of them agree with each other. Each kind is judged by itself, so that what the
+  /// sonars say never turns the choice among the LiDAR's.
+  struct Choice {
+    explicit Choice(const ConsistencyOptions& options) : consistency(options) {}
+    ConsistencySet consistency;
+    std::vector<int> considered;  ///< number in state_.closures of each closure in it
+  };
+  void consider(LoopClosure closure, Choice& choice);
+  int apply(const Choice& choice);
   bool optimisationDue() const;
+  bool isFarOff(const Choice& choice) const;
   SolveSummary solve();
   void takeResult(const SurveyProblem& problem);
   bool isAground(const SurveyProblem& problem);
-  int dropContradictions();
+  int dropContradictions(Choice& choice);
 
   GraphSlamOptions options_;
-  ConsistencySet consistency_;
-  std::vector<int> considered_;  ///< number in state_.closures of each closure in consistency_
+  Choice lidar_, acoustic_;
   LoopSearch search_;
   ClosureVerifier verifier_;
   FalseClosureSource falseClosures_;
   Relocaliser relocaliser_;
+  SonarSearch sonar_;
   GraphStatistics statistics_;
   int waiting_ = 0;  ///< changes of the closure set since the last optimisation
   mutable std::unique_ptr<Marginals> marginals_;
@@ -131,29 +143,29 @@ KeyframeUpdate GraphSlam::Impl::addKeyframe(const KeyframeInput& input) {
 void GraphSlam::Impl::searchClosures(KeyframeUpdate& update) {
   for (const ClosureCandidate& candidate : search_.find(state_)) {
     ++update.candidates;
-    consider(verifier_.verify(state_, candidate));
+    consider(verifier_.verify(state_, candidate), lidar_);
   }
-  for (const LoopClosure& closure : falseClosures_.make(state_, update.candidates)) consider(closure);
-  update.accepted = applyChoice();
+  for (const LoopClosure& closure : falseClosures_.make(state_, update.candidates)) consider(closure, lidar_);
+  update.accepted = apply(lidar_);
 }
 
 /// Checks a closure against odometry and takes it into the choice.
-void GraphSlam::Impl::consider(LoopClosure closure) {
+void GraphSlam::Impl::consider(LoopClosure closure, Choice& choice) {
   closure.odometryChi2 = odometryChi2(state_.chain, closure);
   if (closure.status == ClosureStatus::pending && closure.odometryChi2 > options_.consistency.chi2)
     closure.status = ClosureStatus::rejectedByOdometry;
   state_.closures.push_back(closure);
   if (closure.status != ClosureStatus::pending) return;
-  consistency_.add(state_.chain, closure);
-  considered_.push_back(static_cast<int>(state_.closures.size()) - 1);
+  choice.consistency.add(state_.chain, closure);
+  choice.considered.push_back(static_cast<int>(state_.closures.size()) - 1);
 }
 
-/// Gives every considered closure the status that follows from the present choice; returns how many are newly accepted.
-int GraphSlam::Impl::applyChoice() {
+/// Gives every closure of a kind the status that follows from the present choice; returns how many are newly accepted.
+int GraphSlam::Impl::apply(const Choice& choice) {
   int accepted = 0;
-  const std::vector<bool>&chosen = consistency_.chosen(), &waiting = consistency_.waiting();
-  for (std::size_t c = 0; c < considered_.size(); ++c) {
-    ClosureStatus& status = state_.closures[considered_[c]].status;
+  const std::vector<bool>&chosen = choice.consistency.chosen(), &waiting = choice.consistency.waiting();
+  for (std::size_t c = 0; c < choice.considered.size(); ++c) {
+    ClosureStatus& status = state_.closures[choice.considered[c]].status;
     if (status == ClosureStatus::rejectedByOptimiser) continue;
     const ClosureStatus unchosen = waiting[c] ? ClosureStatus::pending : ClosureStatus::rejectedByOthers;
     const ClosureStatus now = chosen[c] ? ClosureStatus::accepted : unchosen;
@@ -166,10 +178,14 @@ int GraphSlam::Impl::applyChoice() {
 
 bool GraphSlam::Impl::optimisationDue() const {
   if (waiting_ == 0) return false;
-  if (waiting_ >= options_.optimizeAtCount) return true;
+  return waiting_ >= options_.optimizeAtCount || isFarOff(lidar_) || isFarOff(acoustic_);
+}
+
+/// True if one of the newest accepted closures contradicts the present estimate.
+bool GraphSlam::Impl::isFarOff(const Choice& choice) const {
   const double limit = options_.optimizeAt_sigma * options_.optimizeAt_sigma;
-  for (std::size_t c = considered_.size(); c-- > 0 && considered_.size() - c <= 10;) {
-    const LoopClosure& closure = state_.closures[considered_[c]];
+  for (std::size_t c = choice.considered.size(); c-- > 0 && choice.considered.size() - c <= 10;) {
+    const LoopClosure& closure = state_.closures[choice.considered[c]];
     if (closure.status == ClosureStatus::accepted && closureChi2(state_, closure) > limit) return true;
   }
   return false;
@@ -187,7 +203,8 @@ SolveSummary GraphSlam::Impl::solve() {
     summary.time_s = secondsSince(start);
     statistics_.last = summary;
     const bool again = summary.status != SolveStatus::failed &&
-                       (isAground(problem) || dropContradictions() > 0 || gnss_.state != problem.gnss.state);
+                       (isAground(problem) || dropContradictions(lidar_) + dropContradictions(acoustic_) > 0 ||
+                        gnss_.state != problem.gnss.state);
     if (!again) break;
   }
   waiting_ = 0;
@@ -218,20 +235,20 @@ bool GraphSlam::Impl::isAground(const SurveyProblem& problem) {
   return true;
 }
 
-int GraphSlam::Impl::dropContradictions() {
+int GraphSlam::Impl::dropContradictions(Choice& choice) {
   int dropped = 0;
-  for (std::size_t c = 0; c < considered_.size(); ++c) {
-    LoopClosure& closure = state_.closures[considered_[c]];
+  for (std::size_t c = 0; c < choice.considered.size(); ++c) {
+    LoopClosure& closure = state_.closures[choice.considered[c]];
     // Three times the quantile: the robust loss has already made it powerless, and honest closures stay.
     if (closure.status != ClosureStatus::accepted || closureChi2(state_, closure) <= 3 * options_.consistency.chi2)
       continue;
     closure.status = ClosureStatus::rejectedByOptimiser;
-    consistency_.ban(static_cast<int>(c));
+    choice.consistency.ban(static_cast<int>(c));
     ++dropped;
   }
   if (dropped == 0) return 0;
-  consistency_.choose();
-  applyChoice();
+  choice.consistency.choose();
+  apply(choice);
   return dropped;
 }
 
@@ -253,14 +270,20 @@ void GraphSlam::Impl::addGnss(const GnssFix& fix) {
   state_.fixes.push_back(tied);
 }
 
+void GraphSlam::Impl::addSubmap(const AcousticSubmap& submap) {
+  if (!options_.sonar.enabled || state_.keyframes.empty() || !submap.T_odom_vehicle.matrix().allFinite()) return;
+  for (const LoopClosure& factor : sonar_.add(state_, submap)) consider(factor, acoustic_);
+  apply(acoustic_);
+}
+
 ClosureStatus GraphSlam::Impl::offerClosure(const LoopClosure& closure) {
   const int count = static_cast<int>(state_.keyframes.size());
   if (closure.from < 0 || closure.to >= count || closure.from == closure.to)
     throw core::InputError("a loop closure needs two different keyframes that exist",
                            std::to_string(closure.from) + " -> " + std::to_string(closure.to),
                            "give numbers from 0 to " + std::to_string(count - 1));
-  consider(closure);
-  applyChoice();
+  consider(closure, lidar_);
+  apply(lidar_);
   const ClosureStatus status = state_.closures.back().status;
   if (optimisationDue()) solve();
   return status;
@@ -269,8 +292,14 @@ ClosureStatus GraphSlam::Impl::offerClosure(const LoopClosure& closure) {
 GraphStatistics GraphSlam::Impl::statistics() const {
   GraphStatistics statistics = statistics_;
   statistics.keyframes = static_cast<int>(state_.keyframes.size());
-  statistics.candidates = static_cast<int>(state_.closures.size());
+  statistics.submaps = sonar_.submapCount();
   for (const auto& closure : state_.closures) {
+    if (closure.source == ClosureSource::sonar) {
+      ++statistics.sonarCandidates;
+      if (closure.status == ClosureStatus::accepted) ++statistics.sonarAccepted;
+      continue;
+    }
+    ++statistics.candidates;
     if (closure.status == ClosureStatus::accepted)
       ++statistics.accepted;
     else if (closure.status == ClosureStatus::pending)
@@ -309,6 +338,7 @@ GraphSlam::GraphSlam(GraphSlam&&) noexcept = default;
 
 KeyframeUpdate GraphSlam::addKeyframe(const KeyframeInput& input) { return impl_->addKeyframe(input); }
 void GraphSlam::addGnss(const GnssFix& fix) { impl_->addGnss(fix); }
+void GraphSlam::addSubmap(const AcousticSubmap& submap) { impl_->addSubmap(submap); }
 SolveSummary GraphSlam::optimizeNow() { return impl_->optimizeNow(); }
 const std::vector<Keyframe>& GraphSlam::keyframes() const { return impl_->state_.keyframes; }
 const std::vector<LoopClosure>& GraphSlam::loopClosures() const { return impl_->state_.closures; }

@@ -116,6 +116,47 @@ core::OptionTable optionTable(RelocationOptions& o) {
   return table;
 }
 
+core::OptionTable optionTable(SonarFactorOptions& o) {
+  AcousticRegistrationOptions& r = o.registration;
+  core::OptionTable table;
+  table.add("enabled", o.enabled, "factors between places that the sonars saw twice")
+      .add("submap_m", o.submap_m, "path that makes up an acoustic submap", core::positive())
+      .add("max_submap_s", o.maxSubmap_s, "a slower vessel's submap ends after this", core::positive())
+      .add("min_travel_m", o.minTravel_m, "path between the two submaps of a factor", core::positive())
+      .add("radius_m", o.radius_m, "largest distance of two submaps", core::positive())
+      .add("cell_m", o.cell_m, "edge of the cells in which overlap is measured", core::positive())
+      .add("min_overlap_m2", o.minOverlap_m2, "smallest common area", core::positive())
+      .add("passes", o.passes, "earlier passes that a submap is registered to", core::atLeast(1))
+      .add("joined_m", o.joined_m, "path on either side of an earlier submap that joins it as target", core::atLeast(0))
+      .add("correlated_factors", o.correlatedFactors, "neighbouring factors that count as one", core::atLeast(1))
+      .add("voxel_m", r.voxel_m, "thinning of the submaps", core::positive())
+      .add("normal_neighbours", r.normalNeighbours, "points that define a plane", {5, 100})
+      .add("coarse_partner_m", r.coarsePartner_m, "largest distance of partners at first", core::positive())
+      .add("fine_partner_m", r.finePartner_m, "largest distance of partners at last", core::positive())
+      .add("max_iterations", r.maxIterations, "iterations of the registration", core::atLeast(1))
+      .add("loss_width", r.lossWidth, "width of the registration's robust weight in standard deviations",
+           core::positive())
+      .add("least_sigma_m", r.leastSigma_m, "no point is believed better than this", core::positive())
+      .add("min_points", r.minPoints, "thinned points in common", core::atLeast(10))
+      .add("min_overlap", r.minOverlap, "share of these that must find a partner", {0, 1})
+      .add("max_chi2", r.maxChi2, "largest mean square of the residuals over their variances", core::positive())
+      .add("degeneracy_ratio", r.degeneracyRatio, "times the information that noisy normals pretend is taken off",
+           core::atLeast(0))
+      .add("max_degenerate", r.maxDegenerate, "directions of six that may stay unknown; a flat seabed hides three",
+           {0, 5})
+      .add("correlated_points", r.correlatedPoints, "points that count as one measurement", core::atLeast(1))
+      .add("floor_horizontal_m", r.floorHorizontal_m, "smallest standard deviation of a factor along x and y",
+           core::positive())
+      .add("floor_height_m", r.floorHeight_m, "and in height", core::positive())
+      .addDegrees("floor_tilt_deg", r.floorTilt_rad, "and of its roll and pitch", core::positive())
+      .addDegrees("floor_yaw_deg", r.floorYaw_rad, "and of its heading", core::positive())
+      .add("start_spacing_m", r.startSpacing_m, "distance of the starts tried where the odometry leaves room",
+           core::positive())
+      .add("ambiguous_ratio", r.ambiguousRatio, "a second fit with less than this times the best one's cost is as good",
+           core::atLeast(1));
+  return table;
+}
+
 core::OptionTable optionTable(OptimizerOptions& o) {
   core::OptionTable table;
   table.add("max_iterations", o.maxIterations, "iterations of the optimiser", core::atLeast(1))
@@ -152,6 +193,7 @@ std::vector<std::pair<std::string, core::OptionTable>> optionSections(GraphSlamO
   sections.emplace_back(prefix + ".gnss", optionTable(o.gnss));
   sections.emplace_back(prefix + ".waterline", optionTable(o.waterline));
   sections.emplace_back(prefix + ".relocation", optionTable(o.relocation));
+  sections.emplace_back(prefix + ".sonar", optionTable(o.sonar));
   sections.emplace_back(prefix + ".false_closures", optionTable(o.falseClosures));
   return sections;
 }

@@ -107,23 +107,7 @@ std::size_t CSeabedSkyMap::store(const ScanPose& pose, const std::vector<ScanPoi
 }
 
 std::size_t CSeabedSkyMap::store(const ScanPose& pose, const LineScan& scan) {
-  StoredLineScan stored;
-  stored.pose = pose;
-  stored.T_vehicle_sonar = scan.T_vehicle_sonar;
-  stored.verticalAperture_rad = static_cast<float>(scan.verticalAperture_rad);
-  stored.bearingSigma_rad = static_cast<float>(scan.bearingSigma_rad);
-  stored.bearingModel = scan.bearingModel;
-  stored.returns.reserve(scan.returns.size());
-  for (const LineReturn& r : scan.returns) {
-    if (!std::isfinite(r.range_m) || !std::isfinite(r.bearing_rad) || r.range_m <= 0) continue;
-    PackedReturn packed;
-    packed.range_m = r.range_m;
-    packed.bearing_rad = r.bearing_rad;
-    packed.intensityHalf = toHalf(r.intensity);
-    packed.rangeSigmaCode = encodeSigma(r.sigma_m);
-    packed.order = std::min(r.order, kMaxOrder);
-    stored.returns.push_back(packed);
-  }
+  StoredLineScan stored = toStored(pose, scan);
   if (stored.returns.empty()) return 0;
   resolve(stored);
   countReturns(stored);

@@ -43,4 +43,25 @@ std::uint8_t encodeSigma(double sigma_m) {
 
 double decodeSigma(std::uint8_t code) { return kSmallestSigma_m * std::pow(kSigmaStep, code); }
 
+StoredLineScan toStored(const ScanPose& pose, const LineScan& scan) {
+  StoredLineScan stored;
+  stored.pose = pose;
+  stored.T_vehicle_sonar = scan.T_vehicle_sonar;
+  stored.verticalAperture_rad = static_cast<float>(scan.verticalAperture_rad);
+  stored.bearingSigma_rad = static_cast<float>(scan.bearingSigma_rad);
+  stored.bearingModel = scan.bearingModel;
+  stored.returns.reserve(scan.returns.size());
+  for (const LineReturn& r : scan.returns) {
+    if (!std::isfinite(r.range_m) || !std::isfinite(r.bearing_rad) || r.range_m <= 0) continue;
+    PackedReturn packed;
+    packed.range_m = r.range_m;
+    packed.bearing_rad = r.bearing_rad;
+    packed.intensityHalf = toHalf(r.intensity);
+    packed.rangeSigmaCode = encodeSigma(r.sigma_m);
+    packed.order = std::min(r.order, kMaxOrder);
+    stored.returns.push_back(packed);
+  }
+  return stored;
+}
+
 }  // namespace s2s::map

@@ -6,7 +6,7 @@ namespace s2s::mapper {
 
 BackendStage::BackendStage(const graph::GraphSlamOptions& graphOptions, const map::MapOptions& mapOptions,
                            std::unique_ptr<graph::PriorMap> prior)
-    : graph_(graphOptions, std::move(prior)), map_(mapOptions) {}
+    : graph_(graphOptions, std::move(prior)), submaps_(graphOptions.sonar, mapOptions.resolver), map_(mapOptions) {}
 
 void BackendStage::addKeyframe(const KeyframeData& keyframe) {
   graph::KeyframeInput input;
@@ -24,6 +24,7 @@ void BackendStage::addKeyframe(const KeyframeData& keyframe) {
 }
 
 void BackendStage::addSonarScan(const SonarScan& scan) {
+  if (const auto submap = submaps_.add(scan)) graph_.addSubmap(*submap);
   if (scan.layer == map::Layer::Stereo)
     map_.insertScan(scan.layer, scan.time, scan.T_odom_vehicle, scan.points);
   else
@@ -33,6 +34,7 @@ void BackendStage::addSonarScan(const SonarScan& scan) {
 
 void BackendStage::finish() {
   if (graph_.keyframes().empty()) return;
+  if (const auto submap = submaps_.finish()) graph_.addSubmap(*submap);
   graph_.optimizeNow();
   moveMap();
   map_.resolveLineScans();

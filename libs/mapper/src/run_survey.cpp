@@ -63,8 +63,10 @@ void readSurvey(const SurveyRun& run, obs::RawlogReader& reader, SurveyMapper& m
 
 /// Loop closures by what became of them; injected ones only if there were any.
 void addClosureFigures(const std::vector<graph::LoopClosure>& closures, products::RunSummary& summary) {
-  double verified = 0, injected = 0, injectedAccepted = 0;
+  double candidates = 0, verified = 0, injected = 0, injectedAccepted = 0;
   for (const auto& closure : closures) {
+    if (closure.source == graph::ClosureSource::sonar) continue;
+    ++candidates;
     const bool accepted = closure.status == graph::ClosureStatus::accepted;
     if (closure.source == graph::ClosureSource::injected) {
       ++injected;
@@ -76,11 +78,18 @@ void addClosureFigures(const std::vector<graph::LoopClosure>& closures, products
       ++verified;
     }
   }
-  summary.figures.emplace_back("loop_closure_candidates", static_cast<double>(closures.size()) - injected);
+  summary.figures.emplace_back("loop_closure_candidates", candidates - injected);
   summary.figures.emplace_back("loop_closures_verified", verified);
   if (injected == 0) return;
   summary.figures.emplace_back("false_closures_injected", injected);
   summary.figures.emplace_back("false_closures_accepted", injectedAccepted);
+}
+
+void addSonarFigures(const graph::GraphStatistics& statistics, products::RunSummary& summary) {
+  if (statistics.submaps == 0) return;
+  summary.figures.emplace_back("acoustic_submaps", statistics.submaps);
+  summary.figures.emplace_back("sonar_factor_candidates", statistics.sonarCandidates);
+  summary.figures.emplace_back("sonar_factors", statistics.sonarAccepted);
 }
 
 void addRelocation(const SurveyRun& run, const graph::RelocationReport& report, products::RunSummary& summary) {
@@ -126,6 +135,7 @@ products::RunSummary summarize(const SurveyRun& run, const SurveyConfig& config,
   for (const auto& l : mapper.latencies().statistics())
     summary.latencies.push_back({l.name, l.count, l.median_s, l.p95_s, l.max_s});
   addClosureFigures(mapper.graph().loopClosures(), summary);
+  addSonarFigures(mapper.graph().statistics(), summary);
   summary.effectiveIni = printSurveyConfig(config);
   return summary;
 }

@@ -22,6 +22,10 @@ graph::GraphSlamOptions graphOptions(const SurveyConfig& config) {
   graph::GraphSlamOptions options = config.graph;
   options.waterline.enabled = options.waterline.enabled && config.mapper.onWater;
   options.waterline.height_m = -config.mapper.waterline_m;
+  const bool seabedInOdometry = config.odometry.seabed.enabled && config.mapper.onWater;
+  // The odometry forgets only when it has moved on by a tenth of its LiDAR map's radius.
+  options.sonar.odometryMemory_m =
+      seabedInOdometry ? config.odometry.seabed.map.radius_m + 0.1 * config.odometry.map.radius_m : 0;
   return options;
 }
 

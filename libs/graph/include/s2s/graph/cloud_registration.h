@@ -7,7 +7,7 @@
 namespace s2s::graph {
 
 struct RegistrationOptions {
-  double voxel_m = 0.25;         ///< thinning of the target submap
+  double voxel_m = 0.25;         ///< thinning of the target submap; 0: none
   int normalNeighbours = 12;     ///< points that define a target point's plane
   double coarsePartner_m = 3.0;  ///< largest distance of partners in the first iterations
   double finePartner_m = 0.5;    ///< and in the last
@@ -49,6 +49,8 @@ class RegistrationTarget {
   struct Plane {
     Eigen::Vector3d point, normal;
     double tiltVariance_rad2 = 0;  ///< of the normal
+    double variance_m2 = 0;        ///< of the target's points across the plane
+    std::size_t index = 0;         ///< of the nearest point, in the thinned target
   };
   /// The plane of the nearest point within `distance_m` that has one.
   bool nearestPlane(const Eigen::Vector3d& query, double distance_m, Plane& plane) const;
@@ -57,7 +59,7 @@ class RegistrationTarget {
   struct Index;
   Cloud points_;
   std::vector<Eigen::Vector3f> normals_;  ///< zero length where the surroundings are no plane
-  std::vector<float> tiltVariances_rad2_;
+  std::vector<float> tiltVariances_rad2_, variances_m2_;
   std::unique_ptr<Index> index_;
 };
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "s2s/graph/acoustic_submap.h"
 #include "s2s/graph/graph_slam_options.h"
 #include "s2s/graph/keyframe.h"
 #include "s2s/graph/loop_closure.h"
@@ -24,6 +25,7 @@ struct KeyframeUpdate {
 struct GraphStatistics {
   int keyframes = 0;
   int candidates = 0, accepted = 0, pending = 0, rejected = 0;  ///< loop closures
+  int submaps = 0, sonarCandidates = 0, sonarAccepted = 0;      ///< acoustic submaps, and factors between them
   SolveSummary last;                                            ///< the last optimisation
 };
 
@@ -45,6 +47,10 @@ class GraphSlam {
 
   /// Gives a GNSS fix, in time order, not before the first keyframe. It takes part from the next optimisation on.
   void addGnss(const GnssFix& fix);
+
+  /// Takes what the sonars saw along a piece of path that keyframes cover, pieces in order of time, and registers it to
+  /// earlier passes. The factors that are believed take part from the next optimisation on.
+  void addSubmap(const AcousticSubmap& submap);
 
   /// Offers a loop closure found elsewhere; it has to agree with odometry and other closures like any other.
   /// @throws core::InputError if a keyframe does not exist or both are the same

@@ -8,6 +8,7 @@
 #include "s2s/graph/optimizer.h"
 #include "s2s/graph/prior_map.h"
 #include "s2s/graph/scan_context.h"
+#include "s2s/graph/sonar_factors.h"
 
 namespace s2s::graph {
 
@@ -45,6 +46,7 @@ struct GraphSlamOptions {
   WaterlineOptions waterline;
   FalseClosureOptions falseClosures;
   RelocationOptions relocation;
+  SonarFactorOptions sonar;
 
   double cloudVoxel_m = 0.4;    ///< thinning of the clouds that are kept
   int cloudPoints = 4000;       ///< and their largest size

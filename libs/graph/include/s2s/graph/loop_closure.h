@@ -11,6 +11,7 @@ enum class ClosureSource {
   descriptor,  ///< the places look alike
   external,    ///< given from outside
   priorMap,    ///< registered against a map made before
+  sonar,       ///< what the sonars saw on two passes
   injected     ///< wrong on purpose, see FalseClosureOptions
 };
 
@@ -21,6 +22,7 @@ enum class ClosureStatus {
   rejectedOverlap,     ///< too few points found a partner
   rejectedResidual,    ///< the clouds do not lie on each other
   rejectedDegenerate,  ///< the clouds do not determine the pose
+  rejectedAmbiguous,   ///< the clouds fit in two places
   rejectedByOdometry,  ///< contradicts the odometry beyond its covariance
   rejectedByOthers,    ///< not among the largest set of closures that agree with each other
   rejectedByOptimiser  ///< contradicts the optimised graph

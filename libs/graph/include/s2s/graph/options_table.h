@@ -20,6 +20,7 @@ core::OptionTable optionTable(GnssOptions& options);
 core::OptionTable optionTable(WaterlineOptions& options);
 core::OptionTable optionTable(FalseClosureOptions& options);
 core::OptionTable optionTable(RelocationOptions& options);
+core::OptionTable optionTable(SonarFactorOptions& options);
 /// The keys of GraphSlamOptions itself, without those of its parts.
 core::OptionTable optionTable(GraphSlamOptions& options);
 

@@ -114,4 +114,7 @@ struct StoredLineScan {
   std::vector<PackedReturn> returns;
 };
 
+/// A leading edge as it is stored, elevations still to be decided; returns that are not finite are dropped.
+StoredLineScan toStored(const ScanPose& pose, const LineScan& scan);
+
 }  // namespace s2s::map

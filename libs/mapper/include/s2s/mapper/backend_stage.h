@@ -4,6 +4,7 @@
 
 #include "s2s/graph/graph_slam.h"
 #include "s2s/map/CSeabedSkyMap.h"
+#include "s2s/mapper/acoustic_submaps.h"
 #include "s2s/mapper/messages.h"
 
 namespace s2s::mapper {
@@ -27,6 +28,7 @@ class BackendStage {
   void moveMap();
 
   graph::GraphSlam graph_;
+  AcousticSubmaps submaps_;
   map::CSeabedSkyMap map_;
 };
 
