@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -59,6 +60,18 @@ inline void renderPoints(obs::CObservationImagingSonar& ping, const std::vector<
     const double amplitude = 110 * std::sqrt(power[i] / mean * speckle(random)) + 8 * std::sqrt(speckle(random));
     setSample(ping, i / ping.beamCount, i % ping.beamCount, static_cast<std::uint32_t>(std::min(255.0, amplitude)));
   }
+}
+
+/// The same ping with its beams stored from the other side, as an Oculus stores them: bearings fall from beam to beam.
+inline obs::CObservationImagingSonar fromOtherSide(obs::CObservationImagingSonar ping) {
+  const auto stored = ping.samples;
+  const std::size_t beams = ping.beamCount, bytes = ping.bytesPerSample;
+  for (std::size_t row = 0; row < ping.rangeCount; ++row)
+    for (std::size_t beam = 0; beam < beams; ++beam)
+      std::copy_n(stored.data() + (row * beams + beam) * bytes, bytes,
+                  ping.samples.data() + (row * beams + beams - 1 - beam) * bytes);
+  std::reverse(ping.bearings_rad.begin(), ping.bearings_rad.end());
+  return ping;
 }
 
 /// A level seabed `depth_m` below the origin of frame "level" (x ahead, z up), every centimetre.
