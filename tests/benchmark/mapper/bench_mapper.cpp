@@ -52,6 +52,18 @@ void printStages(const s2s::products::RunSummary& summary) {
                               100 * time_s / summary.duration_s);
 }
 
+/// The same vessel without its sonars: what they cost is the difference.
+s2s::mapper::SurveyConfig withoutSonars(s2s::mapper::SurveyConfig config) {
+  config.mapper.sonarHorizontal.label = "no horizontal sonar";
+  config.mapper.sonarVertical.label = "no vertical sonar";
+  return config;
+}
+
+void printSonarShare(const Cost& with, const Cost& without, double survey_s) {
+  std::cout << mrpt::format("the sonars' share: %.1f %% of one core at the recorded rate, products included\n",
+                            100 * (with.processor_s - without.processor_s) / survey_s);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -76,6 +88,11 @@ int main(int argc, char** argv) {
         static_cast<unsigned long long>(summary.pingsVertical), summary.peakRss_mb, "", "wall time", "processor");
     printCost("reading only", reading, summary.duration_s, reading);
     printCost("mapping with all products", mapping, summary.duration_s, reading);
+    auto lidarOnly = run;
+    lidarOnly.output += "-without-sonars";
+    const Cost without = measure([&] { s2s::mapper::runSurvey(lidarOnly, withoutSonars(config)); });
+    printCost("the same without the sonars", without, summary.duration_s, reading);
+    printSonarShare(mapping, without, summary.duration_s);
     printStages(summary);
     return s2s::apps::kSuccess;
   });
