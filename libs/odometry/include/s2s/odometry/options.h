@@ -103,7 +103,9 @@ struct SeabedOptions {
   double pointVoxel_m = 0.1;   ///< one point in each such cube is used
   double leastSigma_m = 0.04;  ///< no acoustic point is believed better than this
   int minMatches = 40;
-  double correlation = 60.0;  ///< points of one ping share more errors than those of a sweep
+  /// Points of one ping share more errors than those of a sweep, and the map was made from the pings just before, at
+  /// poses with nearly the same error: a whole scan counts for about one residual.
+  double correlation = 300.0;
 };
 
 /// Use of the IMU.
