@@ -3,7 +3,8 @@
 # Usage: share/bench.sh [NAME …] [-- Google Benchmark arguments …]
 #        (NAME: sonar odometry graph sim map mapper; default: all)
 # mapper is the whole of seabed-sky-map on 35 s of the canal with a full LiDAR (128x1024@20) and both sonars, beside
-# only reading the same rawlog and the same without sonars, whose share of a core it prints; the survey is simulated once into out/bench/survey.
+# only reading the same rawlog, and once more without the sonars, whose share of a core it prints; the survey is
+# simulated once into out/bench/survey.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 names=()
