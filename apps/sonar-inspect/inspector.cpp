@@ -40,10 +40,10 @@ cv::Mat plan(const std::vector<sonar::StereoPoint>& points, int axis, double rea
   constexpr double kScale = 80;
   const int height = static_cast<int>(reach_m * kScale), width = 640;
   cv::Mat picture(height, width, CV_8UC3, cv::Scalar(25, 20, 20));
-  for (double x = 1; x < reach_m; x += 1) {
-    const int row = height - static_cast<int>(x * kScale);
+  for (int x_m = 1; x_m < reach_m; ++x_m) {
+    const int row = height - static_cast<int>(x_m * kScale);
     cv::line(picture, {0, row}, {width, row}, {60, 60, 50}, 1);
-    cv::putText(picture, cv::format("%g m", x), {4, row - 3}, cv::FONT_HERSHEY_SIMPLEX, 0.4, {180, 180, 180});
+    cv::putText(picture, cv::format("%d m", x_m), {4, row - 3}, cv::FONT_HERSHEY_SIMPLEX, 0.4, {180, 180, 180});
   }
   for (const auto& point : points) {
     const cv::Point at(width / 2 - static_cast<int>(std::lround(point.p_h[axis] * kScale)),

@@ -53,9 +53,14 @@ void drawGrid(cv::Mat& picture, const sonar::PingGeometry& geometry, const sonar
   };
   const double low = geometry.minBearing_rad(), high = geometry.maxBearing_rad();
   const double step_m = ringStep_m(geometry.maxRange_m());
-  for (double range_m = step_m; range_m <= geometry.maxRange_m() + 1e-6; range_m += step_m) {
-    for (double b = low; b < high; b += kDeg)
+  const auto rings = static_cast<int>(std::floor(geometry.maxRange_m() / step_m + 1e-6));
+  const auto pieces = static_cast<int>(std::ceil((high - low) / kDeg));
+  for (int ring = 1; ring <= rings; ++ring) {
+    const double range_m = ring * step_m;
+    for (int piece = 0; piece < pieces; ++piece) {
+      const double b = low + piece * kDeg;
       cv::line(picture, at(range_m, b), at(range_m, std::min(b + kDeg, high)), kGridColor, 1, cv::LINE_AA);
+    }
     drawText(picture, cv::format("%g m", range_m), at(range_m, high) + cv::Point(3, 12));
   }
   for (auto i = std::lround(std::ceil(low / (15 * kDeg))); 15 * kDeg * static_cast<double>(i) <= high; ++i) {

@@ -41,7 +41,7 @@ Pairs pairById(const std::vector<NamedPoint>& control, const std::vector<NamedPo
 }
 
 PointAlignment alignOrRefuse(const Pairs& pairs) {
-  const PointAlignment alignment = alignPoints(pairs.map, pairs.world);
+  PointAlignment alignment = alignPoints(pairs.map, pairs.world);
   if (alignment.status == AlignmentStatus::TooFewPoints)
     throw core::InputError("only " + std::to_string(pairs.map.size()) +
                                " of the control points were picked, and fewer than three do not fix a rotation",
