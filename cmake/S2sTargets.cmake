@@ -46,7 +46,8 @@ function(s2s_tests library)
     S2S_LIB_DIR="${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
   _s2s_common(${target})
   gtest_discover_tests(${target} TEST_PREFIX ${library}. DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-                       WORKING_DIRECTORY ${CMAKE_SOURCE_DIR} PROPERTIES LABELS ${library} TIMEOUT 600)
+                       WORKING_DIRECTORY ${CMAKE_SOURCE_DIR} PROPERTIES LABELS ${library} TIMEOUT 600
+                       ENVIRONMENT "LSAN_OPTIONS=suppressions=${CMAKE_SOURCE_DIR}/tests/lsan.supp")
 endfunction()
 
 # s2s_benchmark(name SOURCES … DEPENDS …): a Google Benchmark program, run by share/bench.sh.
