@@ -45,7 +45,8 @@ class SeabedGrid {
 
  private:
   static std::int64_t key(std::int32_t x, std::int32_t y) {
-    return (static_cast<std::int64_t>(x) << 32) ^ static_cast<std::uint32_t>(y);
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32 |
+                                     static_cast<std::uint32_t>(y));
   }
   const double* node(std::int32_t x, std::int32_t y) const;
   double* node(std::int32_t x, std::int32_t y);
