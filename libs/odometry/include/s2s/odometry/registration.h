@@ -67,9 +67,8 @@ std::vector<core::Vector6> removePretended(NormalEquations& equations, double ra
 /// sensors blind for the same motion, each a little off in its direction, would otherwise between them pretend to know
 /// what neither sees.
 /// @param unseen         by these equations
-/// @param unseenByOther  motions of the other sensor's that are within some 25 degrees (at the points' mean distance)
-/// of
-///                       `unseen` are taken out exactly
+/// @param unseenByOther  by the other sensor; those within some 25 degrees of `unseen` (rotations scaled by the points'
+///                       mean distance) are taken out exactly
 void removeShared(const std::vector<core::Vector6>& unseen, const std::vector<core::Vector6>& unseenByOther,
                   NormalEquations& equations);
 
