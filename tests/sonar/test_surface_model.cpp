@@ -12,24 +12,28 @@ constexpr double kDeg = M_PI / 180.0;
 constexpr double kAperture = 20 * kDeg;
 
 /// What both sonars see of the plane q . p = 1: every pixel of the horizontal one within the aperture, and for each
-/// range the mean elevation over all azimuths, which is all the vertical one tells.
-std::vector<ElevationSample> samplesOf(const Eigen::Vector3d& q, double clutter_m = 0) {
+/// range the mean elevation over all azimuths, which is all the vertical one tells. Beams begin late by `clutter_m` on
+/// average; strips of a degree end early by `weak_m` on average, where the echo has become too weak.
+std::vector<ElevationSample> samplesOf(const Eigen::Vector3d& q, double clutter_m = 0, double weak_m = 0) {
   std::vector<ElevationSample> samples;
   std::vector<double> elevations;
   std::map<long, std::pair<double, int>> rows;
   std::mt19937 random(1);
-  std::exponential_distribution<double> late(1 / std::max(clutter_m, 1e-9));
+  std::exponential_distribution<double> late(1 / std::max(clutter_m, 1e-9)), early(1 / std::max(weak_m, 1e-9));
+  std::map<long, double> ends;
   for (double bearing = -10; bearing <= 10; bearing += 0.25) {
     const double begin = clutter_m > 0 ? late(random) : 0;
-    double nearest = 1e9;
+    const double end = weak_m > 0 ? ends.try_emplace(std::lround(bearing), early(random)).first->second : 0;
+    double nearest = 1e9, farthest = 0;
     std::vector<std::pair<double, double>> column;
     for (double elevation = -10; elevation <= 10; elevation += 0.1) {
       const double range = 1 / q.dot(pointAt({1, bearing * kDeg, elevation * kDeg}, obs::BearingModel::Azimuth));
       nearest = std::min(nearest, range);
+      farthest = std::max(farthest, range);
       column.emplace_back(range, elevation * kDeg);
     }
     for (const auto& [range, elevation] : column) {
-      if (range < nearest + begin) continue;
+      if (range < nearest + begin || range > farthest - end) continue;
       samples.push_back({range, bearing * kDeg, true, 0});
       elevations.push_back(elevation);
       auto& row = rows[std::lround(range / 0.02)];
@@ -75,6 +79,16 @@ TEST(SurfaceModel, LateEdges_OnlyBlurTheTilt) {
   ASSERT_TRUE(model.has_value());
   // Edges late by 6 cm on average and in scatter: 80 beams tell the slope to 6 cm / sqrt(80) over the fan's half.
   EXPECT_LT((model->plane() - q).norm(), 0.02);
+}
+
+TEST(SurfaceModel, WeakFarEdges_LeaveTheTiltToTheNearOnes) {
+  for (const double tilt : {-0.2, 0.2}) {
+    const auto q = seabed(tilt);
+    const auto model = SurfaceModel::fit(samplesOf(q, 0.02, 0.15), kAperture, {});
+    ASSERT_TRUE(model.has_value()) << tilt;
+    // Near edges late by 2 cm in 21 strips tell q_y to 0.02 m / (3.6 m)^2 / (sqrt(21) * 0.1) = 0.003; three times that.
+    EXPECT_NEAR(model->plane().y(), q.y(), 0.01) << tilt;
+  }
 }
 
 TEST(SurfaceModel, SurfaceSquareToTheSonar_IsRefused) {

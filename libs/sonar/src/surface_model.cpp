@@ -12,7 +12,11 @@ namespace {
 
 constexpr int kUnknowns = 5;  // the plane, and the offsets of the near and of the far edge
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
-constexpr double kOutlier = 2.5;                 // edges further off than this many scatters take no part
+// Speckle and weak echoes make a strip's first feature late and its last one early, hardly ever the other way: the edge
+// is near the outer end of what the strips show, so a quantile is fitted and not the mean.
+constexpr double kEdgeQuantile = 0.25;
+constexpr double kLeastEdgeScale = 0.005;  // of the range; half a bin does not count as scatter
+constexpr int kIterations = 10;
 constexpr double kOffsetSigma = 0.1;             // prior of the offsets, as a share of the range
 constexpr double kEdgeWidth_rad = M_PI / 180.0;  // edges are looked for in strips of this width
 constexpr std::size_t kLeastStrips = 8, kLeastRows = 6;
@@ -21,7 +25,7 @@ constexpr std::size_t kLeastStrips = 8, kLeastRows = 6;
 struct Equation {
   Unknowns a = Unknowns::Zero();
   double b = 0, sigma = 1;
-  bool edge = false;
+  int inward = 0;  ///< of an edge: the sign of the residual of a feature within the edge; 0 for rows and priors
   double residual(const Unknowns& x) const { return a.dot(x) - b; }
 };
 
@@ -55,9 +59,14 @@ class PlaneProblem {
 
   bool isSolvable() const { return rows_ >= kLeastRows && strips_ >= kLeastStrips; }
 
-  Unknowns solve() const {
-    Unknowns x = solve(std::numeric_limits<double>::infinity(), Unknowns::Zero());
-    for (int i = 0; i < 3; ++i) x = solve(kOutlier * std::max(edgeScatter(x), 0.5 * options_.edgeSigma), x);
+  /// Iterated least squares with the weights of an asymmetric Laplace distribution: the quantile of either edge. Both
+  /// edges have a scale of their own, since the far one is often where the echo becomes too weak.
+  Unknowns solve() {
+    Unknowns x = solveOnce();
+    for (int i = 0; i < kIterations; ++i) {
+      for (const int inward : {1, -1}) weighEdges(x, inward);
+      x = solveOnce();
+    }
     return x;
   }
 
@@ -65,7 +74,7 @@ class PlaneProblem {
   double edgeScatter(const Unknowns& x) const {
     std::vector<double> sizes;
     for (const Equation& e : equations_)
-      if (e.edge) sizes.push_back(std::abs(e.residual(x)));
+      if (e.inward != 0) sizes.push_back(std::abs(e.residual(x)));
     const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
     std::nth_element(sizes.begin(), middle, sizes.end());
     return 1.48 * *middle;
@@ -105,27 +114,45 @@ class PlaneProblem {
     }
     const double nearElevation_rad = isRising() ? -0.5 * aperture_rad : 0.5 * aperture_rad;
     for (const auto& [strip, limits] : strips) {
-      addEdge(pointOf(limits.nearest, nearElevation_rad), 3);
-      addEdge(pointOf(limits.farthest, -nearElevation_rad), 4);
+      addEdge(pointOf(limits.nearest, nearElevation_rad), 3, 1);
+      addEdge(pointOf(limits.farthest, -nearElevation_rad), 4, -1);
     }
     strips_ = strips.size();
   }
 
-  void addEdge(const Eigen::Vector3d& p, int offset) {
+  void addEdge(const Eigen::Vector3d& p, int offset, int inward) {
     Equation e;
     e.a.head<3>() = p;
     e.a[offset] = 1;
     e.b = 1;
     e.sigma = options_.edgeSigma;
-    e.edge = true;
+    e.inward = inward;
     equations_.push_back(e);
   }
 
-  Unknowns solve(double gate, const Unknowns& last) const {
+  /// Twice the share of the edge's features that should lie on the residual's side.
+  static double asymmetry(double depth) { return 2 * (depth > 0 ? kEdgeQuantile : 1 - kEdgeQuantile); }
+
+  void weighEdges(const Unknowns& x, int inward) {
+    double sum = 0, count = 0;
+    for (const Equation& e : equations_) {
+      if (e.inward != inward) continue;
+      const double depth = inward * e.residual(x);
+      sum += asymmetry(depth) * std::abs(depth);
+      ++count;
+    }
+    const double scale = std::max(kLeastEdgeScale, sum / count);
+    for (Equation& e : equations_) {
+      if (e.inward != inward) continue;
+      const double depth = inward * e.residual(x);
+      e.sigma = std::sqrt(scale * std::max(std::abs(depth), 0.2 * scale) / asymmetry(depth));
+    }
+  }
+
+  Unknowns solveOnce() const {
     Eigen::Matrix<double, kUnknowns, kUnknowns> N = Eigen::Matrix<double, kUnknowns, kUnknowns>::Zero();
     Unknowns g = Unknowns::Zero();
     for (const Equation& e : equations_) {
-      if (e.edge && std::abs(e.residual(last)) > gate) continue;
       const double w = 1 / (e.sigma * e.sigma);
       N += w * e.a * e.a.transpose();
       g += w * e.a * e.b;
@@ -143,7 +170,7 @@ class PlaneProblem {
 
 std::optional<SurfaceModel> SurfaceModel::fit(const std::vector<ElevationSample>& samples, double aperture_rad,
                                               const SurfaceModelOptions& options) {
-  const PlaneProblem problem(samples, aperture_rad, options);
+  PlaneProblem problem(samples, aperture_rad, options);
   if (!problem.isSolvable()) return std::nullopt;
   const Unknowns x = problem.solve();
   SurfaceModel model;

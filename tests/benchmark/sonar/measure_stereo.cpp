@@ -47,7 +47,24 @@ void writePoints(const std::string& path, const bench::StereoScore& s) {
   core::writeTextFile(path, text);
 }
 
-int measure(const std::string& folder, const std::string& config, const std::string& csv, std::size_t stride,
+void writeMatches(const std::string& path, const bench::StereoScore& s) {
+  std::string text = "pair,range_h,bearing_h,range_v,bearing_v,intensity_h,intensity_v,cost,spread,gap\n";
+  for (const auto& m : s.judged) {
+    text += std::to_string(m.pair);
+    for (const double value :
+         {m.h.range_m, m.h.bearing_rad, m.v.range_m, m.v.bearing_rad, static_cast<double>(m.h.intensity),
+          static_cast<double>(m.v.intensity), m.match.cost, m.match.spread_m, m.gap_m})
+      text += "," + core::printDouble(value);
+    text += "\n";
+  }
+  core::writeTextFile(path, text);
+}
+
+struct Outputs {
+  std::string points, matches;
+};
+
+int measure(const std::string& folder, const std::string& config, const Outputs& outputs, std::size_t stride,
             bool all) {
   sonar::SonarOptions options;
   if (!config.empty()) {
@@ -58,7 +75,8 @@ int measure(const std::string& folder, const std::string& config, const std::str
   const auto pairs = bench::readPairs(folder + "/survey.rawlog", stride);
   const auto configured = bench::score(options, pairs, truth);
   printRow("configured", configured);
-  if (!csv.empty()) writePoints(csv, configured);
+  if (!outputs.points.empty()) writePoints(outputs.points, configured);
+  if (!outputs.matches.empty()) writeMatches(outputs.matches, configured);
   if (!all) return apps::kSuccess;
   auto literalFeatures = options;
   literalFeatures.stereo.matching.cost = sonar::FeatureCost::Literal;
@@ -71,13 +89,15 @@ int measure(const std::string& folder, const std::string& config, const std::str
 
 int main(int argc, char** argv) {
   CLI::App app("Measures stereo points against the truth of a simulated survey", "measure_stereo");
-  std::string folder, config, csv;
+  std::string folder, config;
+  Outputs outputs;
   std::size_t stride = 10;
   bool all = false;
   app.add_option("survey", folder, "Output folder of simulate-survey")->required();
   app.add_option("--config", config, "INI with the sonar sections");
-  app.add_option("--csv", csv, "Every point with its distance to the surface");
+  app.add_option("--csv", outputs.points, "Every point with its distance to the surface");
+  app.add_option("--matches", outputs.matches, "Every third match with its distance in truth");
   app.add_option("--stride", stride, "Every how many horizontal pings")->check(CLI::PositiveNumber);
   app.add_flag("--all", all, "The paper's variants beside it");
-  return apps::run(app, argc, argv, [&] { return measure(folder, config, csv, stride, all); });
+  return apps::run(app, argc, argv, [&] { return measure(folder, config, outputs, stride, all); });
 }

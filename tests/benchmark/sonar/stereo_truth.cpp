@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <ctime>
+#include <limits>
 
 #include "s2s/core/error.h"
 #include "s2s/core/ini_file.h"
@@ -46,11 +47,11 @@ std::vector<Eigen::Vector3d> surfaceInCell(const sonar::Feature& f, const sonar:
   return points;
 }
 
-bool samePatch(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b) {
+double gapBetween(const std::vector<Eigen::Vector3d>& a, const std::vector<Eigen::Vector3d>& b) {
+  double gap_m = std::numeric_limits<double>::infinity();
   for (const auto& p : a)
-    for (const auto& q : b)
-      if ((p - q).norm() <= kSamePatch_m) return true;
-  return false;
+    for (const auto& q : b) gap_m = std::min(gap_m, (p - q).norm());
+  return gap_m;
 }
 
 class Scorer {
@@ -91,18 +92,21 @@ class Scorer {
                   const core::Isometry& T_world_h, const core::Isometry& T_world_v) {
     for (std::size_t i = 0; i < trace.matches.size(); i += 3) {
       const auto& match = trace.matches[i];
+      const auto &feature_h = trace.features_h[match.horizontal], &feature_v = trace.features_v[match.vertical];
+      const double gap_m = gapBetween(surfaceInCell(feature_h, h.geometry, T_world_h, truth_),
+                                      surfaceInCell(feature_v, v.geometry, T_world_v, truth_));
       ++score_.matches;
-      if (samePatch(surfaceInCell(trace.features_h[match.horizontal], h.geometry, T_world_h, truth_),
-                    surfaceInCell(trace.features_v[match.vertical], v.geometry, T_world_v, truth_)))
-        ++score_.correct;
+      if (gap_m <= kSamePatch_m) ++score_.correct;
+      score_.judged.push_back({score_.pairs, feature_h, feature_v, match, gap_m});
     }
   }
 
   void addCoverage(const sonar::StereoResult& result, const sonar::PingGeometry& h, const sonar::PingGeometry& v,
                    const core::Isometry& T_world_h, const core::Isometry& T_v_h) {
-    const double half_rad = 0.5 * h.verticalAperture_rad;
-    for (double elevation = -half_rad; elevation <= half_rad; elevation += 1.0 * kDeg)
-      for (double bearing = -12 * kDeg; bearing <= 12 * kDeg; bearing += 1.0 * kDeg) {
+    const long half_deg = std::lround(0.5 * h.verticalAperture_rad / kDeg);
+    for (long elevation_deg = -half_deg; elevation_deg <= half_deg; ++elevation_deg)
+      for (int bearing_deg = -12; bearing_deg <= 12; ++bearing_deg) {
+        const double elevation = static_cast<double>(elevation_deg) * kDeg, bearing = bearing_deg * kDeg;
         const Eigen::Vector3d direction = sonar::pointAt({1.0, bearing, elevation}, h.bearingModel);
         const auto hit = truth_.firstHit(T_world_h.translation(), T_world_h.linear() * direction, h.maxRange_m());
         if (!hit) continue;
@@ -157,24 +161,26 @@ std::optional<Eigen::Vector3d> SurveyTruth::firstHit(const Eigen::Vector3d& orig
 }
 
 std::vector<PingPair> readPairs(const std::string& rawlog, std::size_t stride) {
-  std::vector<obs::CObservationImagingSonar::Ptr> h, v;
+  std::vector<PingPair> pairs;
   obs::RawlogReader reader(rawlog);
   std::size_t count = 0;
+  obs::CObservationImagingSonar::Ptr last_v;
+  const auto isNearer = [](const auto& h, const auto& candidate, const auto& than) {
+    return std::abs(timeOf(*candidate) - timeOf(*h)) < std::abs(timeOf(*than) - timeOf(*h));
+  };
   while (const auto observation = reader.next()) {
     const auto ping = std::dynamic_pointer_cast<obs::CObservationImagingSonar>(observation);
     if (!ping) continue;
-    if (ping->sensorLabel == "SONAR_VERTICAL")
-      v.push_back(ping);
-    else if (count++ % stride == 0)
-      h.push_back(ping);
+    if (ping->sensorLabel != "SONAR_VERTICAL") {
+      if (count++ % stride == 0) pairs.push_back({ping, last_v});
+      continue;
+    }
+    // Only the ping before and the one after can be the nearest: all others need not be held.
+    for (auto pair = pairs.rbegin(); pair != pairs.rend() && timeOf(*pair->h) >= (last_v ? timeOf(*last_v) : 0); ++pair)
+      if (!pair->v || isNearer(pair->h, ping, pair->v)) pair->v = ping;
+    last_v = ping;
   }
-  std::vector<PingPair> pairs;
-  for (const auto& ping : h) {
-    const auto nearer = [&](const auto& a, const auto& b) {
-      return std::abs(timeOf(*a) - timeOf(*ping)) < std::abs(timeOf(*b) - timeOf(*ping));
-    };
-    if (!v.empty()) pairs.push_back({ping, *std::min_element(v.begin(), v.end(), nearer)});
-  }
+  while (!pairs.empty() && !pairs.back().v) pairs.pop_back();
   return pairs;
 }
 

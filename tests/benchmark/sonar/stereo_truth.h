@@ -54,6 +54,15 @@ struct StereoScore {
     double aboveTop_m;  ///< height above the topmost surface there
   };
   std::vector<Point> points;
+
+  struct Match {
+    std::size_t pair;  ///< number of the pair of pings
+    sonar::Feature h, v;
+    sonar::FeatureMatch match;
+    /// Distance of the nearest surface points of the features' resolution cells; infinite if one holds no surface.
+    double gap_m;
+  };
+  std::vector<Match> judged;
 };
 
 StereoScore score(const sonar::SonarOptions& options, const std::vector<PingPair>& pairs, const SurveyTruth& truth);

@@ -28,17 +28,19 @@ enum class AmbiguityRule {
 
 struct FeatureAssociationOptions {
   FeatureCost cost = FeatureCost::Geometric;
-  double maxResidual = 3.0;                        ///< Geometric: gate on |range misfit| / sigma
-  double intensityWeight = 0.25;                   ///< Geometric: of the squared difference of standardised intensities
-  double apertureMargin_rad = 1.0 * M_PI / 180.0;  ///< points may lie outside an aperture by this
-  double maxCost = 5.0;                            ///< Geometric: gate on the whole cost
-  int literalNeighbours = 16;                      ///< Literal: candidates kept for each horizontal feature
+  double maxResidual = 3.0;       ///< Geometric: gate on |range misfit| / sigma
+  double intensityWeight = 0.25;  ///< Geometric: of the squared difference of standardised intensities
+  /// Points may lie outside an aperture by this. Hardly anything is heard there: a feature of the one sonar just
+  /// outside the other's aperture has no partner and takes another's.
+  double apertureMargin_rad = 0;
+  double maxCost = 5.0;        ///< Geometric: gate on the whole cost
+  int literalNeighbours = 16;  ///< Literal: candidates kept for each horizontal feature
   AmbiguityRule ambiguity = AmbiguityRule::Reject;
   double ambiguityCost = 4.0;  ///< candidates within this cost of the best are almost as good
-  double maxSpread_m = 0.3;    ///< Reject: allowed distance between such candidates' points
+  double maxSpread_m = 0.2;    ///< Reject: allowed distance between such candidates' points, 0.1 m about their middle
   /// Geometric: a smooth surface tells which of the vertical sonar's bearings at one range belongs to which beam.
   SurfaceModelOptions surface;
-  double surfaceSigma_rad = 0.6 * M_PI / 180.0;  ///< elevations off the surface by this cost one unit
+  double surfaceSigma_rad = 0.5 * M_PI / 180.0;  ///< elevations off the surface by this cost one unit
   AssignmentOptions assignment;
 };
 

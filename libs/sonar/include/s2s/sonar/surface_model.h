@@ -18,7 +18,7 @@ struct SurfaceModelOptions {
   bool enabled = true;
   double rowLength_m = 0.06;     ///< samples are averaged over rows of this length in range
   double rowSigma = 0.01;        ///< of a row's range about the plane, as a share of the range
-  double edgeSigma = 0.02;       ///< of one edge's range about the plane, as a share: speckle moves it
+  double edgeSigma = 0.02;       ///< of one edge's range about the plane, as a share; to start with, then measured
   double maxEdgeScatter = 0.05;  ///< edges that scatter more are not those of one smooth surface
   double minSlope = 0.2;         ///< least |d range / d elevation| / range: below it, rows say nothing about elevation
 };
@@ -36,6 +36,7 @@ class SurfaceModel {
   /// are known: along a row the mean elevation is that of the vertical sonar's run at that range; and the nearest and
   /// the farthest feature at each bearing lie at the two ends of the aperture. How far from the ends exactly,
   /// thresholds and beam patterns decide, so a common offset is estimated for either end and only the slope is used.
+  /// Since speckle moves them inward only, their outer quartile is fitted, either end at the weight of its own scatter.
   /// @return nothing if the cluster is too small, its edges are not those of one smooth surface, or the surface faces
   ///         the sonar so squarely that range does not tell elevation
   static std::optional<SurfaceModel> fit(const std::vector<ElevationSample>& samples, double aperture_rad,
