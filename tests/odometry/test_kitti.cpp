@@ -14,6 +14,7 @@ const std::string kFolder = std::string(S2S_DATA_DIR) + "/kitti_scans/";
 /// Poses of the sensor, T_first_i, from our odometry without IMU.
 std::vector<core::Isometry> runOnScans() {
   OdometryOptions options;
+  options.water.heavePrior = options.water.velocityPrior = false;  // a car
   LidarInertialOdometry odometry(options);
   std::vector<core::Isometry> poses;
   const auto drain = [&] {

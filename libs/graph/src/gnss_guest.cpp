@@ -68,7 +68,8 @@ core::Isometry robustAlign(const Pairs& pairs, double gate) {
   std::vector<double> squares = squaredResiduals(pairs, T);
   const double largest = *std::max_element(squares.begin(), squares.end());
   if (largest <= gate2) return T;
-  for (double mu = gate2 / (2 * largest - gate2); mu < 1e6; mu *= 1.4) {
+  double mu = gate2 / (2 * largest - gate2);
+  while (mu < 1e6) {
     for (std::size_t n = 0; n < weights.size(); ++n) {
       if (squares[n] <= mu / (mu + 1) * gate2)
         weights[n] = 1;
@@ -79,6 +80,7 @@ core::Isometry robustAlign(const Pairs& pairs, double gate) {
     }
     T = align(pairs, weights);
     squares = squaredResiduals(pairs, T);
+    mu *= 1.4;
   }
   return T;
 }

@@ -8,7 +8,7 @@ core::Vector6 addPointToPlane(const Eigen::Vector3d& p_source, const Eigen::Vect
                               double weight, double tiltVariance_rad2, odometry::NormalEquations& equations) {
   Eigen::Matrix<double, 6, 3> byNormal;
   byNormal << Eigen::Matrix3d::Identity(), core::skew(p_source);
-  const core::Vector6 h = byNormal * normal_source;
+  core::Vector6 h = byNormal * normal_source;
   const Eigen::Matrix3d tangent = Eigen::Matrix3d::Identity() - normal_source * normal_source.transpose();
   equations.A += weight * h * h.transpose();
   equations.b += weight * residual_m * h;

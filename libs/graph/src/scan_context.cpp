@@ -71,6 +71,7 @@ std::vector<PlaceMatch> PlaceDatabase::findLike(const Cloud& cloud_vehicle, cons
 
 std::vector<PlaceMatch> PlaceDatabase::search(const Search& query) const {
   std::vector<std::pair<float, int>> nearest;
+  nearest.reserve(static_cast<std::size_t>(std::max(0, query.count)));
   for (int place = 0; place < query.count; ++place)
     nearest.emplace_back((ringKeys_[place] - query.ringKey).squaredNorm(), place);
   const auto shortlist = std::min<std::size_t>(nearest.size(), static_cast<std::size_t>(query.shortlist));

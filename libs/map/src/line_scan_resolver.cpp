@@ -300,8 +300,9 @@ class PingResolver {
 
   /// Below the nearest known seabed in front of a wall's face.
   bool isBelowSeabed(const Eigen::Vector3d& p, const Eigen::Vector2d& outward) const {
-    for (double step_m = 0; step_m <= kFootReach_m; step_m += 2 * options_.cell_m) {
-      const Eigen::Vector2d at = p.head<2>() + step_m * outward;
+    const double step_m = 2 * options_.cell_m;
+    for (int i = 0; i * step_m <= kFootReach_m; ++i) {
+      const Eigen::Vector2d at = p.head<2>() + i * step_m * outward;
       if (const auto seabed = evidence_.own.seabedAt(at.x(), at.y()))
         return p.z() < seabed->height_m - options_.gate * seabed->sigma_m - options_.surfaceRoughness_m;
     }

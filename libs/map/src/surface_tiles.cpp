@@ -55,7 +55,8 @@ SurfaceColumn& SurfaceEstimator::Tiles::at(std::int32_t column, std::int32_t row
     lastKey_ = key;
   }
   last_->lastUse = ++clock_;
-  return (*last_->tile)[static_cast<std::size_t>((row & kMask) * kSide + (column & kMask))];
+  return (*last_->tile)[static_cast<std::size_t>(row & kMask) * std::size_t{kSide} +
+                        static_cast<std::size_t>(column & kMask)];
 }
 
 void SurfaceEstimator::Tiles::forEach(const std::function<void(std::int32_t, std::int32_t, const Tile&)>& visit) const {

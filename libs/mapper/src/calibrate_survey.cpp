@@ -5,9 +5,9 @@
 #include "s2s/mapper/backend_stage.h"
 #include "s2s/mapper/odometry_stage.h"
 #include "s2s/mapper/sensor_router.h"
+#include "s2s/mapper/stage_options.h"
 #include "s2s/mapper/worker.h"
 #include "s2s/obs/CObservationImagingSonar.h"
-#include "stage_options.h"
 #include "survey_reading.h"
 
 namespace s2s::mapper {

@@ -1,6 +1,7 @@
 #include "s2s/mapper/latency_monitor.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace s2s::mapper {
 
@@ -10,7 +11,7 @@ namespace {
 constexpr std::size_t kRemembered = 2000;
 
 double quantile(const std::vector<double>& sorted, double share) {
-  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5)];
+  return sorted[static_cast<std::size_t>(std::lround(share * static_cast<double>(sorted.size() - 1)))];
 }
 
 }  // namespace

@@ -35,6 +35,18 @@ std::vector<map::ScanPoint> scanPoints(const odometry::DeskewedCloud& cloud) {
 
 }  // namespace
 
+odometry::AcousticScan acousticScan(const StereoScan& scan) {
+  odometry::AcousticScan acoustic;
+  acoustic.time = scan.time;
+  acoustic.points_vehicle.reserve(scan.points.size());
+  acoustic.sigma_m.reserve(scan.points.size());
+  for (const auto& point : scan.points) {
+    acoustic.points_vehicle.push_back(point.p_vehicle);
+    acoustic.sigma_m.push_back(point.sigma_m);
+  }
+  return acoustic;
+}
+
 OdometryStage::OdometryStage(const Options& options, FaultLog& faults, Output output)
     : options_(options),
       faults_(faults),
@@ -103,15 +115,7 @@ void OdometryStage::abandonBefore(core::TimeNs newestPing) {
 
 void OdometryStage::use(std::vector<StereoScan> scans) {
   for (auto& scan : scans) {
-    odometry::AcousticScan acoustic;
-    acoustic.time = scan.time;
-    acoustic.points_vehicle.reserve(scan.points.size());
-    acoustic.sigma_m.reserve(scan.points.size());
-    for (const auto& point : scan.points) {
-      acoustic.points_vehicle.push_back(point.p_vehicle);
-      acoustic.sigma_m.push_back(point.sigma_m);
-    }
-    odometry_.addAcoustic(std::move(acoustic));
+    odometry_.addAcoustic(acousticScan(scan));
     stereo_.push_back(std::move(scan));
   }
 }

@@ -1,4 +1,4 @@
-#include "stage_options.h"
+#include "s2s/mapper/stage_options.h"
 
 namespace s2s::mapper {
 

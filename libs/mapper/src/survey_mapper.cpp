@@ -1,7 +1,7 @@
 #include "s2s/mapper/survey_mapper.h"
 
+#include "s2s/mapper/stage_options.h"
 #include "s2s/obs/CObservationImagingSonar.h"
-#include "stage_options.h"
 
 namespace s2s::mapper {
 

@@ -91,9 +91,11 @@ HeaveFit fitHeave(const NavState& start, const core::Isometry& T_imu_vehicle, co
   Solution best;
   best.irregular_m = std::numeric_limits<double>::infinity();
   double bestRate = 0;
-  for (double period_s = kShortestWave_s; period_s < std::max(heights.back().t_s, 1.1 * kShortestWave_s);
-       period_s *= kWaveStep) {
+  const double longest_s = std::max(heights.back().t_s, 1.1 * kShortestWave_s);
+  double period_s = kShortestWave_s;
+  while (period_s < longest_s) {
     const double rate = 2 * M_PI / period_s;
+    period_s *= kWaveStep;
     const Solution solution = solve(heights, rate, kLeastHeaveShare * most, options);
     if (solution.irregular_m >= best.irregular_m) continue;
     best = solution;

@@ -73,7 +73,7 @@ void addRegistration(OptionTable& table, RegistrationOptions& o) {
 }
 
 void addWater(OptionTable& table, WaterOptions& o) {
-  table.add("heave_prior", o.heavePrior, "the vessel floats, so its height stays near the waterline (needs an IMU)")
+  table.add("heave_prior", o.heavePrior, "the vessel floats, so its height stays near the waterline")
       .add("heave_sigma_m", o.heaveSigma_m,
            "most that the vessel's height may scatter about the waterline; how much it does is learnt", positive())
       .add("heave_time_s", o.heaveTime_s, "over which one heave resembles the next", positive())

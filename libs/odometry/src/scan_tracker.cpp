@@ -82,7 +82,7 @@ OdometryResult ScanTracker::track(const Scan& scan, const ImuBuffer& imu, const 
   std::vector<NavState> path{filter_.state()};
   filter_.propagate(steps, &path);
 
-  if (filter_.hasImu() && options_.water.heavePrior && !map_.empty())
+  if (filter_.knowsUp() && options_.water.heavePrior && !map_.empty())
     useHeavePrior(core::secondsBetween(path.front().time, path.back().time));
   if (filter_.hasImu() && options_.water.velocityPrior && !steps.empty())
     useVelocityPrior(core::secondsBetween(path.front().time, path.back().time), steps.back().angularRate_radps);
@@ -307,12 +307,14 @@ Matrix6 ScanTracker::vehicleByImuError() const {
 void ScanTracker::describe(const Points& points, const Vector3d& angularRate_radps, OdometryResult& result) {
   const NavState& state = filter_.state();
   result.T_odom_vehicle = T_odom_vehicle();
-  result.hasGravity = filter_.hasImu();
+  result.hasGravity = filter_.knowsUp();
   if (result.hasGravity) {
     result.up_odom = -state.gravity.normalized();
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - result.up_odom * result.up_odom.transpose();
     const Eigen::Matrix3d cov = filter_.covariance().block<3, 3>(kGravity, kGravity);
     result.gravitySigma_rad = std::sqrt((across * cov * across).trace() / 2.0) / state.gravity.norm();
+  }
+  if (filter_.hasImu()) {
     result.gyroBias_radps = state.gyroBias;
     result.accelBias_mps2 = state.accelBias;
     result.imu.timeOffset_s = state.timeOffset_s;

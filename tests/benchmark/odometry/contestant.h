@@ -20,6 +20,8 @@ class Contestant {
   const std::string& name() const { return name_; }
   void imu(const odometry::ImuSample& sample);
   void sweep(const obs::CObservationLidarSweep& sweep);
+  /// Stereo points of the sonars, for those that can use them.
+  virtual void acoustic(const odometry::AcousticScan&) {}
   void finish();
 
   /// A pose for every sweep that has one.
@@ -45,6 +47,10 @@ class OurOdometry : public Contestant {
  public:
   /// @param leastGap_s sweeps nearer to the last one taken than this are left out (0: every sweep is used)
   OurOdometry(std::string name, const odometry::OdometryOptions& options, double leastGap_s = 0);
+
+  void acoustic(const odometry::AcousticScan& scan) override { odometry_.addAcoustic(scan); }
+  /// T_from_to of the vehicle, as it moves at present.
+  core::Isometry expectedMotion(core::TimeNs from, core::TimeNs to) const { return odometry_.expectedMotion(from, to); }
 
  protected:
   void takeImu(const odometry::ImuSample& sample) override;

@@ -11,7 +11,9 @@
 #include "s2s/core/ini_file.h"
 #include "s2s/eval/trajectory_error.h"
 #include "s2s/mapper/sensor_router.h"
+#include "s2s/mapper/stage_options.h"
 #include "s2s/mapper/survey_config.h"
+#include "s2s/obs/CObservationImagingSonar.h"
 #include "s2s/obs/rawlog_reader.h"
 #include "s2s/products/trajectory_files.h"
 
@@ -30,15 +32,6 @@ struct Request {
   bool all = false;
 };
 
-odometry::OdometryOptions odometryOptions(const mapper::SurveyConfig& config) {
-  auto options = config.odometry;
-  options.water.rejectBelow = config.mapper.onWater;
-  options.water.heavePrior = options.water.heavePrior && config.mapper.onWater;
-  options.water.height_m = config.mapper.waterline_m;
-  options.water.margin_m = config.mapper.waterMargin_m;
-  return options;
-}
-
 Contestants contestantsFor(const odometry::OdometryOptions& options, bool all) {
   Contestants contestants;
   contestants.push_back(std::make_unique<bench::OurOdometry>("as configured", options));
@@ -51,11 +44,33 @@ Contestants contestantsFor(const odometry::OdometryOptions& options, bool all) {
   return contestants;
 }
 
+/// Stereo points of the sonars, made as the mapper makes them, for all contestants; `motion` is that of the first.
+class StereoSource {
+ public:
+  StereoSource(const mapper::SurveyConfig& config, const bench::OurOdometry& motion)
+      : images_(config.sonar.horizontal, config.sonar.vertical, config.sonar.stereo),
+        pairer_(config.sonar, config.mapper.stereoPairWindow_s,
+                [&motion](core::TimeNs from, core::TimeNs to) { return motion.expectedMotion(from, to); }) {}
+
+  std::vector<mapper::StereoScan> add(mapper::Role role, const obs::CObservationImagingSonar& ping) {
+    std::promise<std::shared_ptr<const sonar::ProcessedPing>> image;
+    const auto& device = role == mapper::Role::SonarHorizontal ? images_.horizontal() : images_.vertical();
+    image.set_value(std::make_shared<const sonar::ProcessedPing>(device.process(ping)));
+    return pairer_.add(
+        {role, core::fromMrptTime(ping.timestamp), core::toIsometry(ping.sensorPose), image.get_future().share()});
+  }
+
+ private:
+  sonar::SonarStereo images_;
+  mapper::StereoPairer pairer_;
+};
+
 /// One pass over the rawlog for all.
 void feed(const Request& request, const mapper::SurveyConfig& config, Contestants& contestants) {
   obs::RawlogReader reader(request.folder + "/survey.rawlog");
   mapper::FaultLog faults;
   mapper::SensorRouter router(config.mapper, faults);
+  StereoSource stereo(config, dynamic_cast<const bench::OurOdometry&>(*contestants.front()));
   std::optional<core::TimeNs> start;
   while (const auto observation = reader.next()) {
     const core::TimeNs time = core::fromMrptTime(observation->timestamp);
@@ -71,8 +86,52 @@ void feed(const Request& request, const mapper::SurveyConfig& config, Contestant
     }
     if (role == mapper::Role::Lidar)
       for (auto& contestant : contestants) contestant->sweep(dynamic_cast<obs::CObservationLidarSweep&>(*observation));
+    if (const auto* ping = dynamic_cast<const obs::CObservationImagingSonar*>(observation.get());
+        ping && role != mapper::Role::None)
+      for (const auto& scan : stereo.add(role, *ping))
+        for (auto& contestant : contestants) contestant->acoustic(mapper::acousticScan(scan));
   }
   for (auto& contestant : contestants) contestant->finish();
+}
+
+/// Whether the odometry knows how wrong it is: errors of its motions over some way by their stated covariance.
+void printConsistency(const bench::Contestant& contestant, const core::Trajectory& truth, double way_m) {
+  odometry::MotionAccumulator motion;
+  std::optional<core::Isometry> T_world_start;
+  core::Vector6 ratio2 = core::Vector6::Zero();
+  double nees = 0;
+  double sailed_m = 0;
+  int count = 0;
+  const core::Isometry* T_odom_last = nullptr;
+  for (const auto& result : contestant.results()) {
+    if (!result.covariance_registration.ldlt().isPositive() || result.covariance_registration.isZero()) return;
+    const auto T_world_now = truth.at(result.time);
+    if (!T_world_now) continue;
+    motion.add(result);
+    if (!T_world_start) {
+      motion.restart();
+      T_world_start = T_world_now;
+    }
+    if (T_odom_last) sailed_m += (T_odom_last->inverse() * result.T_odom_vehicle).translation().norm();
+    T_odom_last = &result.T_odom_vehicle;
+    if (sailed_m < way_m) continue;
+    sailed_m = 0;
+    const auto estimate = motion.motion();
+    const core::Isometry error = (T_world_start->inverse() * *T_world_now).inverse() * estimate.T_from_to;
+    core::Vector6 e;
+    e << error.translation(), core::logSo3(error.linear());
+    ratio2 += e.cwiseAbs2().cwiseQuotient(estimate.covariance.diagonal());
+    nees += e.dot(estimate.covariance.ldlt().solve(e));
+    ++count;
+    motion.restart();
+    T_world_start = T_world_now;
+  }
+  if (count == 0) return;
+  const core::Vector6 ratio = (ratio2 / count).cwiseSqrt();
+  std::printf(
+      "    %d motions of %.0f m, error over its stated deviation (1 is ideal): ahead %.2f left %.2f up %.2f "
+      "roll %.2f pitch %.2f yaw %.2f; NEES %.1f (6)\n",
+      count, way_m, ratio[0], ratio[1], ratio[2], ratio[3], ratio[4], ratio[5], nees / count);
 }
 
 void printRow(const bench::Contestant& contestant, const core::Trajectory& truth) {
@@ -88,6 +147,7 @@ void printRow(const bench::Contestant& contestant, const core::Trajectory& truth
       contestant.name().c_str(), poses.size(), 100 * segments.translation_share,
       segments.rotation_radpm * 10 * 180 / M_PI, absolute.translation_m.rmse, absolute.translation_m.max,
       1e3 * cpu.median, 1e3 * cpu.p95);
+  for (const double way_m : {10.0, 100.0}) printConsistency(contestant, truth, way_m);
 }
 
 /// Every pose's error against the truth when both start at the first pose, and its stated standard deviations.
@@ -123,7 +183,7 @@ void writeErrors(const std::string& path, const bench::Contestant& contestant, c
 int measure(const Request& request) {
   const std::string config = request.config.empty() ? request.folder + "/survey.ini" : request.config;
   const auto survey = mapper::loadSurveyConfig(config, request.overrides);
-  auto contestants = contestantsFor(odometryOptions(survey), request.all);
+  auto contestants = contestantsFor(mapper::odometryStageOptions(survey).odometry, request.all);
   feed(request, survey, contestants);
   const auto truth = products::readTum(request.folder + "/truth/trajectory.tum");
   for (const auto& contestant : contestants) printRow(*contestant, truth);

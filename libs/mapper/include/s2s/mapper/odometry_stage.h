@@ -18,6 +18,9 @@
 
 namespace s2s::mapper {
 
+/// What the odometry needs of a pair of pings.
+odometry::AcousticScan acousticScan(const StereoScan& scan);
+
 /// First stage: IMU samples and LiDAR sweeps in, odometry out, one update a sweep; sweeps far enough from the last
 /// keyframe come with all their points, deskewed. Pairs of pings are triangulated here, because the odometry registers
 /// what the sonars see beside what the LiDAR sees. GNSS fixes pass through and get the pose of their time.

@@ -15,8 +15,8 @@ struct StepModel {
 /// One step of strapdown navigation with midpoint attitude, its Jacobian and its noise.
 ///
 /// A step that was not measured keeps the velocity: its specific force is taken to balance gravity, and the motion
-/// options give the noise. Without any IMU gravity is zero and `-gyroBias` serves as the turn rate, which makes the
-/// same equations a constant-velocity model.
+/// options give the noise. Without any IMU no step is measured and `-gyroBias` serves as the turn rate, which makes the
+/// same equations a constant-velocity model; gravity then is just the belief about where down is.
 StepModel propagated(const NavState& state, const MotionStep& step, const ImuOptions& imu, const MotionOptions& motion,
                      bool hasImu);
 
@@ -32,6 +32,8 @@ class InertialFilter {
   const NavState& state() const { return state_; }
   const ErrorMatrix& covariance() const { return covariance_; }
   bool hasImu() const { return hasImu_; }
+  /// Whether there is a belief about where up is: always with an IMU; without, if the vehicle floats.
+  bool knowsUp() const { return !state_.gravity.isZero(); }
 
   /// Moves on by steps; the states after each step are appended to `path` if given.
   void propagate(const std::vector<MotionStep>& steps, std::vector<NavState>* path = nullptr);

@@ -43,7 +43,7 @@ struct OdometryResult {
   /// Of the pose against the local map alone (does not grow).
   core::Matrix6 covariance_registration = core::Matrix6::Zero();
 
-  bool hasGravity = false;                                   ///< false without IMU
+  bool hasGravity = false;                                   ///< true with an IMU, or if the vehicle floats
   Eigen::Vector3d up_odom = Eigen::Vector3d::UnitZ();        ///< estimated, against gravity; about z
   double gravitySigma_rad = 0;                               ///< of that direction
   Eigen::Vector3d velocity_odom = Eigen::Vector3d::Zero();   ///< of the vehicle's origin [m/s]

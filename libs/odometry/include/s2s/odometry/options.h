@@ -71,7 +71,8 @@ struct RegistrationOptions {
   double correlation = 4.0;
 };
 
-/// Knowledge that the vehicle floats. Only used with an IMU, which tells where down is. Whether there is water, and
+/// Knowledge that the vehicle floats. Where down is, an IMU tells; without one, it is learnt from the heights of the
+/// places that the vehicle floats at. Whether there is water, and
 /// how high, is not the odometry's alone to know: `rejectBelow`, `height_m` and `margin_m` are set by the application.
 struct WaterOptions {
   /// Soft knowledge that the vehicle stays near one height, which may itself change slowly. Between vertical quays
