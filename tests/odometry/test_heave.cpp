@@ -43,6 +43,28 @@ TEST(Odometry, HeavingStartBetweenBareWalls_HeightIsRightFromTheFirstPoses) {
   }
 }
 
+TEST(Odometry, FloatingWithoutImuBetweenBareWalls_HoldsItsHeight) {
+  for (const double phase : {0.0, 1.0, 2.0}) {
+    Record record;
+    record.hasImu = false;
+    record.duration_s = 25;
+    record.world.boxes = {{{-30, -9, -1e4}, {80, 8, 1e4}}};
+    for (int i = 0; i < 8; ++i) {
+      const double x = 8.0 * i, y = i % 2 ? 6.0 : -8.0;
+      record.world.boxes.push_back({{x, y, -1e4}, {x + 1.5, y + 1.5, 1e4}});
+    }
+    record.path = [phase](double t) {
+      return core::isometryFromXyzYpr(1.2 * t, 0.3 * std::sin(0.3 * t), 0.02 * std::sin(2.1 * t + phase),
+                                      0.1 * std::sin(0.2 * t), 0.02 * std::sin(1.7 * t + phase),
+                                      0.03 * std::sin(1.9 * t + 2 * phase));
+    };
+    // The heaves are 2 cm; the first frame leans by up to 2 degrees, which is worth 1 m after 30 m and has to be found.
+    EXPECT_LT(worstHeight(replay(record), record, 0, 25), 0.15) << phase;
+    record.options.water.heavePrior = false;
+    EXPECT_GT(worstHeight(replay(record), record, 0, 25), 0.5) << phase;
+  }
+}
+
 TEST(HeaveFit, RegularWaves_GiveSpeedHeightAndAccelerationError) {
   for (const double phase : {0.0, 1.5, 3.0}) {
     const auto height = [phase](double t) { return 0.04 * std::sin(3.3 * t + phase); };

@@ -171,13 +171,24 @@ void InertialFilter::measureVelocity(const core::Isometry& T_imu_vehicle, const 
   }
 }
 
-Matrix3d InertialFilter::upCovariance() const {
-  const Vector3d up_imu = -(state_.R_odom_imu.transpose() * state_.gravity).normalized();
+void InertialFilter::measureLean(const core::Isometry& T_imu_vehicle, double sigma_rad) {
+  for (int axis = 0; axis < 2; ++axis) {
+    const Vector3d level_imu = T_imu_vehicle.linear().col(axis);
+    const ErrorVector h = (level_imu.transpose() * upByError()).transpose();
+    const ErrorVector Ph = covariance_ * h;
+    const double variance = h.dot(Ph) + sigma_rad * sigma_rad;
+    state_ = moved(state_, Ph * (-level_imu.dot(up_imu()) / variance));
+    covariance_ -= Ph * Ph.transpose() / variance;
+  }
+}
+
+Eigen::Matrix<double, 3, kErrorSize> InertialFilter::upByError() const {
+  const Vector3d up = up_imu();
   Eigen::Matrix<double, 3, kErrorSize> J = Eigen::Matrix<double, 3, kErrorSize>::Zero();
-  J.middleCols<3>(kRotation) = core::skew(up_imu);
+  J.middleCols<3>(kRotation) = core::skew(up);
   J.middleCols<3>(kGravity) =
-      -(Matrix3d::Identity() - up_imu * up_imu.transpose()) * state_.R_odom_imu.transpose() / state_.gravity.norm();
-  return J * covariance_ * J.transpose();
+      -(Matrix3d::Identity() - up * up.transpose()) * state_.R_odom_imu.transpose() / state_.gravity.norm();
+  return J;
 }
 
 void InertialFilter::measurePose(const core::Isometry& T_odom_imu, const core::Matrix6& noise) {

@@ -77,6 +77,7 @@ void addWater(OptionTable& table, WaterOptions& o) {
       .add("heave_sigma_m", o.heaveSigma_m,
            "most that the vessel's height may scatter about the waterline; how much it does is learnt", positive())
       .add("heave_time_s", o.heaveTime_s, "over which one heave resembles the next", positive())
+      .addDegrees("lean_sigma_deg", o.leanSigma_rad, "how far the vessel leans, where no IMU tells", positive())
       .add("level_walk_m_rts", o.levelWalk_m_rts, "random walk of the water's level (tide)", atLeast(0))
       .add("velocity_prior", o.velocityPrior, "the vessel goes ahead, slowly, and hardly sideways (needs an IMU)")
       .add("speed_sigma_mps", o.speedSigma_mps, "standard deviation of the speed ahead", positive())

@@ -137,6 +137,8 @@ void ScanTracker::useHeavePrior(double sinceLast_s) {
                                     water.heaveSigma_m);
   const double heave_m = filter_.heightAboveFloating(T_imu_vehicle_);
   heaveVariance_m2_ += (heave_m * heave_m - heaveVariance_m2_) * std::min(1.0, sinceLast_s / kHeaveMemory_s);
+  // An IMU tells leaning better.
+  if (!filter_.hasImu()) filter_.measureLean(T_imu_vehicle_, water.leanSigma_rad / std::sqrt(share));
   const double misfit = filter_.measureHeave(T_imu_vehicle_, 0.0, sigma_m / std::sqrt(share));
   // Off for long by more than the heaves explain: the water itself has moved, so its level is unknown again.
   const double limit = water.giveUpSigma * std::sqrt(share);

@@ -24,9 +24,6 @@ constexpr double kMostRestMisfit = 16.3;
 /// A speed known worse than the first is not told by the scans; the second is that of a vessel that lies about still.
 constexpr double kUntoldSpeedSigma_mps = 0.15, kRestSpeedSigma_mps = 0.2;
 
-/// How far a vessel that floats may lean when its record begins, if no IMU tells [rad].
-constexpr double kFloatingTilt_rad = 0.05;
-
 constexpr double kPoseSigma = 1e-4;  // the first pose defines the frame [m, rad]
 constexpr double kStillSpeedSigma_mps = 0.02;
 constexpr double kRefinedSpeedSigma_mps = 0.03;
@@ -226,7 +223,7 @@ StartState lidarOnlyStart(core::TimeNs startTime, const OdometryOptions& options
   setSigma(start, kVelocity, options.motion.initialSpeedSigma_mps);
   setSigma(start, kGyroBias, options.motion.initialTurnRateSigma_radps);
   if (options.water.heavePrior) {
-    setGravity(start, options.imu.gravity_mps2, kFloatingTilt_rad * options.imu.gravity_mps2);
+    setGravity(start, options.imu.gravity_mps2, options.water.leanSigma_rad * options.imu.gravity_mps2);
     start.covariance(kFloating, kFloating) = options.water.heaveSigma_m * options.water.heaveSigma_m;
   }
   return start;

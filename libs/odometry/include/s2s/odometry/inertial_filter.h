@@ -57,8 +57,11 @@ class InertialFilter {
   void measureVelocity(const core::Isometry& T_imu_vehicle, const Eigen::Vector3d& turnRate_radps,
                        const Eigen::Vector3d& velocity_mps, const Eigen::Vector3d& sigma_mps);
 
+  /// Takes the knowledge that the vehicle's z axis points up, but for a lean of this standard deviation [rad].
+  void measureLean(const core::Isometry& T_imu_vehicle, double sigma_rad);
+
   /// Covariance of the direction of up in the IMU's frame [rad^2].
-  Eigen::Matrix3d upCovariance() const;
+  Eigen::Matrix3d upCovariance() const { return upByError() * covariance_ * upByError().transpose(); }
 
   /// Adds to the floating height's variance.
   void loosenFloatingHeight(double variance_m2) { covariance_(kFloating, kFloating) += variance_m2; }
@@ -67,6 +70,10 @@ class InertialFilter {
   void measurePose(const core::Isometry& T_odom_imu, const core::Matrix6& noise);
 
  private:
+  Eigen::Vector3d up_imu() const { return -(state_.R_odom_imu.transpose() * state_.gravity).normalized(); }
+  /// Derivative of the direction of up in the IMU's frame.
+  Eigen::Matrix<double, 3, kErrorSize> upByError() const;
+
   ImuOptions imu_;
   MotionOptions motion_;
   bool hasImu_;

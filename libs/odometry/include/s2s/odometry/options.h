@@ -81,6 +81,7 @@ struct WaterOptions {
   /// Most that the standard deviation of the vehicle's origin about that height may be; the heave itself is learnt.
   double heaveSigma_m = 0.1;
   double heaveTime_s = 1.0;         ///< over which one heave is correlated with the next
+  double leanSigma_rad = 0.05;      ///< of the vehicle's z axis about up; only used without an IMU
   double levelWalk_m_rts = 2.0e-3;  ///< random walk of that height: tide, load
   /// Soft knowledge that a displacement hull goes ahead, slowly, and hardly sideways: what keeps the speed bounded over
   /// open water. Standard deviations about zero of the velocity ahead and across.
