@@ -169,11 +169,9 @@ class MetadataParser {
     }
     if (values.size() != 16) refuse(std::string("'") + key + "' has not 16 numbers");
     core::Isometry T = core::Isometry::Identity();
-    for (int row = 0; row < 3; ++row) {
-      for (int column = 0; column < 3; ++column)
-        T.linear()(row, column) = values[static_cast<std::size_t>(4 * row + column)];
-      T.translation()[row] = kMetresPerMillimetre * values[static_cast<std::size_t>(4 * row + 3)];
-    }
+    const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(values.data());
+    T.linear() = matrix.topLeftCorner<3, 3>();
+    T.translation() = kMetresPerMillimetre * matrix.topRightCorner<3, 1>();
     const Eigen::Matrix3d R = T.linear();
     // A rotation to the three or four digits that such files give.
     if (!(R.transpose() * R).isApprox(Eigen::Matrix3d::Identity(), 1e-3) || R.determinant() < 0)

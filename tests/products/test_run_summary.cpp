@@ -63,7 +63,7 @@ TEST(RunSummary, DistrustedGnss_ReadsBackWithItsSpans) {
   gnss.unbelievable = 31;
   gnss.largestDeviation_m = 48.25;
   gnss.spans = {{1'733'400'030'000'000'001, 1'733'400'060'000'000'000, 31, 48.25}};
-  gnss.mapOrigin = GnssSummary::Place{55.6617123, 12.5736, 3.5, 271.25};
+  gnss.mapOrigin = GnssPlace{55.6617123, 12.5736, 3.5, 271.25};
   const auto json = nlohmann::json::parse(toJson(s));
   EXPECT_EQ(json["gnss"]["spans"][0]["from_utc"], "2024-12-05T12:00:30.000Z");
   core::writeTextFile(folder.file("summary.json"), toJson(s));

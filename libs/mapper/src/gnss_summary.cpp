@@ -8,7 +8,7 @@ namespace s2s::mapper {
 
 namespace {
 
-products::GnssSummary::Place mapOrigin(const core::Isometry& T_enu_map, const GeodeticPosition& origin) {
+products::GnssPlace mapOrigin(const core::Isometry& T_enu_map, const GeodeticPosition& origin) {
   const GeodeticPosition place = toGeodetic(T_enu_map.translation(), origin);
   const Eigen::Vector3d x_enu = T_enu_map.linear().col(0);
   double azimuth_deg = std::atan2(x_enu.x(), x_enu.y()) * 180 / M_PI;  // clockwise from north

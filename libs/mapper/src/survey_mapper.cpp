@@ -92,7 +92,7 @@ void SurveyMapper::finish() {
   if (router_.count(Role::Imu) == 0 && config_.odometry.imuUse != odometry::ImuUse::never)
     faults_.add(
         "no record of an IMU labelled '" + config_.mapper.imu.label +
-        "': the LiDAR alone was used, which between bare walls does not know the height; check label_imu, or set "
+        "': the LiDAR alone was used, which knows the height and the vertical less well; check label_imu, or set "
         "imu = never in [odometry]");
   const mrpt::system::CTimeLoggerEntry timer(profile_, "back end: last optimisation");
   backend_.finish();

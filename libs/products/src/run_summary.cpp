@@ -64,7 +64,7 @@ GnssSummary gnssFromJson(const Json& json) {
       take(entry, "largest_deviation_m", span.largestDeviation_m);
     }
   if (json.contains("map_origin") && !json["map_origin"].is_null()) {
-    GnssSummary::Place& place = g.mapOrigin.emplace();
+    GnssPlace& place = g.mapOrigin.emplace();
     take(json["map_origin"], "latitude_deg", place.latitude_deg);
     take(json["map_origin"], "longitude_deg", place.longitude_deg);
     take(json["map_origin"], "height_m", place.height_m);

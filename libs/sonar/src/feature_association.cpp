@@ -61,6 +61,7 @@ std::vector<ElevationSample> elevationSamples(const std::vector<Candidate>& cand
                                               const std::vector<Feature>& horizontal,
                                               const std::vector<Feature>& vertical) {
   std::vector<ElevationSample> samples;
+  samples.reserve(horizontal.size());
   std::vector<double> weights(horizontal.size(), 0);
   for (const Feature& h : horizontal) samples.push_back({h.range_m, h.bearing_rad, false, 0});
   for (const Candidate& c : candidates) {

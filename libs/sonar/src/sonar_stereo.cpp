@@ -98,9 +98,9 @@ class PointMaker {
 };
 
 std::size_t clusterCount(const std::vector<Feature>& features) {
-  int highest = -1;
-  for (const Feature& f : features) highest = std::max(highest, f.cluster);
-  return static_cast<std::size_t>(highest + 1);
+  int count = 0;
+  for (const Feature& f : features) count = std::max(count, f.cluster + 1);
+  return static_cast<std::size_t>(count);
 }
 
 StereoStatus statusOf(const StereoResult& result) {

@@ -53,7 +53,7 @@ std::unique_ptr<graph::GraphSlam> makeSurvey(int closures) {
 }
 
 /// One more closure at the end of a survey that was optimised before: what a user waits for.
-void LoopClosureInALargeSurvey(benchmark::State& state) {
+void loopClosureInALargeSurvey(benchmark::State& state) {
   const auto slam = makeSurvey(kClosures - 64);
   slam->optimizeNow();
   FixedRandom random(2);
@@ -71,10 +71,10 @@ void LoopClosureInALargeSurvey(benchmark::State& state) {
   state.counters["constraints"] = static_cast<double>(slam->poseGraph().constraints.size());
   state.counters["iterations"] = statistics.last.iterations;
 }
-BENCHMARK(LoopClosureInALargeSurvey)->Unit(benchmark::kMillisecond)->Iterations(10);
+BENCHMARK(loopClosureInALargeSurvey)->Unit(benchmark::kMillisecond)->Iterations(10);
 
 /// The first optimisation of the same survey, from the odometry's poses.
-void LargeSurveyFromOdometry(benchmark::State& state) {
+void largeSurveyFromOdometry(benchmark::State& state) {
   const auto slam = makeSurvey(kClosures);
   const graph::PoseGraph start = slam->poseGraph();
   for (auto _ : state) {
@@ -84,9 +84,9 @@ void LargeSurveyFromOdometry(benchmark::State& state) {
     state.counters["cost"] = summary.finalCost;
   }
 }
-BENCHMARK(LargeSurveyFromOdometry)->Unit(benchmark::kMillisecond);
+BENCHMARK(largeSurveyFromOdometry)->Unit(benchmark::kMillisecond);
 
-void ParkingGarage(benchmark::State& state) {
+void parkingGarage(benchmark::State& state) {
   const std::string path = std::string(S2S_DATA_DIR) + "/posegraph/parking-garage.g2o";
   if (!std::filesystem::exists(path)) {
     state.SkipWithError(("no data at " + path).c_str());
@@ -100,15 +100,15 @@ void ParkingGarage(benchmark::State& state) {
     state.counters["cost"] = summary.finalCost;
   }
 }
-BENCHMARK(ParkingGarage)->Unit(benchmark::kMillisecond);
+BENCHMARK(parkingGarage)->Unit(benchmark::kMillisecond);
 
-void MarginalCovarianceInALargeSurvey(benchmark::State& state) {
+void marginalCovarianceInALargeSurvey(benchmark::State& state) {
   const auto slam = makeSurvey(kClosures);
   slam->optimizeNow();
   slam->marginalCovariance(0);
   int k = 1;
   for (auto _ : state) benchmark::DoNotOptimize(slam->marginalCovariance(k++ % kKeyframes));
 }
-BENCHMARK(MarginalCovarianceInALargeSurvey)->Unit(benchmark::kMillisecond);
+BENCHMARK(marginalCovarianceInALargeSurvey)->Unit(benchmark::kMillisecond);
 
 }  // namespace

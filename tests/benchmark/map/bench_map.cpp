@@ -21,7 +21,7 @@ std::vector<map::ScanPoint> randomSweep(std::size_t count) {
   return points;
 }
 
-void BM_InsertSweep(benchmark::State& state) {
+void insertSweep(benchmark::State& state) {
   const auto sweep = randomSweep(65536);
   map::CSeabedSkyMap map;
   core::TimeNs time = 0;
@@ -32,9 +32,9 @@ void BM_InsertSweep(benchmark::State& state) {
   state.counters["points/s"] =
       benchmark::Counter(65536.0 * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
-BENCHMARK(BM_InsertSweep)->Unit(benchmark::kMillisecond)->Iterations(50);
+BENCHMARK(insertSweep)->Unit(benchmark::kMillisecond)->Iterations(50);
 
-void BM_GraphUpdateAndWalk(benchmark::State& state) {
+void graphUpdateAndWalk(benchmark::State& state) {
   map::MapOptions options;
   options.insertion.lidarVoxel_m = 0;
   map::CSeabedSkyMap map(options);
@@ -57,10 +57,10 @@ void BM_GraphUpdateAndWalk(benchmark::State& state) {
       benchmark::Counter(static_cast<double>(map.pointCount() * static_cast<std::size_t>(state.iterations())),
                          benchmark::Counter::kIsRate);
 }
-BENCHMARK(BM_GraphUpdateAndWalk)->Unit(benchmark::kMillisecond);
+BENCHMARK(graphUpdateAndWalk)->Unit(benchmark::kMillisecond);
 
 /// A horizontal ping of 512 beams, over a seabed that ten seconds of both sonars have told of.
-void BM_ResolveHorizontalPing(benchmark::State& state) {
+void resolveHorizontalPing(benchmark::State& state) {
   test::LeadingEdgeScene scene;
   scene.add(test::LeadingEdgeScene::seabed(-3.4));
   map::CSeabedSkyMap map;
@@ -75,6 +75,6 @@ void BM_ResolveHorizontalPing(benchmark::State& state) {
   state.counters["returns/s"] = benchmark::Counter(
       static_cast<double>(ping.returns.size()) * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
 }
-BENCHMARK(BM_ResolveHorizontalPing)->Unit(benchmark::kMillisecond);
+BENCHMARK(resolveHorizontalPing)->Unit(benchmark::kMillisecond);
 
 }  // namespace

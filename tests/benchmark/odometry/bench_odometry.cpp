@@ -28,6 +28,7 @@ const std::vector<obs::CObservationLidarSweep>& sweeps() {
   static const auto all = [] {
     Random random(1);
     std::vector<obs::CObservationLidarSweep> made;
+    made.reserve(kSweeps);
     for (int i = 0; i < kSweeps; ++i)
       made.push_back(sweepAt(canal(), cruise(1.3, 0, 0), 0.05 * i, fullLidar(), random));
     return made;

@@ -11,6 +11,12 @@
 
 namespace s2s::products {
 
+/// Where the map's origin lies and where its x axis points, WGS84.
+struct GnssPlace {
+  double latitude_deg = 0, longitude_deg = 0, height_m = 0;
+  double azimuth_deg = 0;  ///< of the x axis, clockwise from north
+};
+
 /// What became of GNSS, the guest.
 struct GnssSummary {
   struct Span {
@@ -18,18 +24,13 @@ struct GnssSummary {
     std::uint64_t fixes = 0;
     double largestDeviation_m = 0;
   };
-  /// Where the map's origin lies and where its x axis points, WGS84.
-  struct Place {
-    double latitude_deg = 0, longitude_deg = 0, height_m = 0;
-    double azimuth_deg = 0;  ///< of the x axis, clockwise from north
-  };
-  std::string state;               ///< "trusted", "distrusted", "too short to align", "absent" (switched off)
-  bool distrusted = false;         ///< took no part in the map
-  std::uint64_t fixes = 0;         ///< considered
-  std::uint64_t unbelievable = 0;  ///< of these, in contradiction to the map
-  double largestDeviation_m = 0;   ///< horizontal, from the aligned map
-  std::vector<Span> spans;         ///< when it contradicted the map
-  std::optional<Place> mapOrigin;  ///< while trusted
+  std::string state;                   ///< "trusted", "distrusted", "too short to align", "absent" (switched off)
+  bool distrusted = false;             ///< took no part in the map
+  std::uint64_t fixes = 0;             ///< considered
+  std::uint64_t unbelievable = 0;      ///< of these, in contradiction to the map
+  double largestDeviation_m = 0;       ///< horizontal, from the aligned map
+  std::vector<Span> spans;             ///< when it contradicted the map
+  std::optional<GnssPlace> mapOrigin;  ///< while trusted
 
   /// True if there was track enough to compare it with the map.
   bool judged() const { return state == "trusted" || distrusted; }
