@@ -54,7 +54,7 @@ core::Trajectory truePathOf(const core::Trajectory& truth, const core::Trajector
 }
 
 /// How much of an object's surroundings its picture shows.
-constexpr double kPictureMargin_m = 0.4;
+constexpr double kPictureMargin_m = 1.0;
 
 /// Everything that each point of the map is shown to.
 struct PointConsumers {

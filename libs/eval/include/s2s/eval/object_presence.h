@@ -47,6 +47,9 @@ class ObjectFinder {
   const products::PlyMesh& surfaceOf(std::size_t object) const { return candidates_[object].surface->mesh(); }
   const std::vector<ObjectPoint>& pointsOf(std::size_t object) const { return candidates_[object].kept; }
 
+  /// Height above the bare seabed; NaN where there is none.
+  double heightAboveSeabed(const Eigen::Vector3d& p_world) const;
+
   /// One entry an object, in the order of their numbers.
   std::vector<ObjectPresence> presence() const;
 
@@ -59,8 +62,6 @@ class ObjectFinder {
     std::unique_ptr<VisibleSurface> seen;
     std::vector<ObjectPoint> kept;
   };
-  double heightAboveSeabed(const Eigen::Vector3d& p_world) const;
-
   double reach_m_, margin_m_ = 0;
   std::unique_ptr<MeshQuery> seabed_;  ///< bare; null if the world has none
   std::vector<Candidate> candidates_;
