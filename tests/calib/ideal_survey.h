@@ -12,8 +12,7 @@ namespace s2s::calib::test {
 struct IdealSurvey {
   CalibrationState truth;
   CalibrationState nominal;
-  core::Trajectory trajectory;
-  std::vector<PingEchoes> pings;
+  CalibrationEvidence evidence;
 };
 
 struct IdealSurveyOptions {
@@ -25,6 +24,7 @@ struct IdealSurveyOptions {
   core::Isometry error_h = core::Isometry::Identity(),
                  error_v = core::Isometry::Identity();  ///< true = nominal * error
   double late_h_s = 0, late_v_s = 0;
+  double wall_y_m = 0;  ///< a wall along x, seen by LiDAR and horizontal sonar; 0: none
 };
 
 inline double reliefAt(const IdealSurveyOptions& o, double x, double y) {
@@ -66,6 +66,21 @@ inline double castRange(const IdealSurveyOptions& o, const core::Isometry& T_map
   return 0;
 }
 
+/// Range at which the arc of a bearing touches the wall from the side of smaller y, if it does so within the aperture,
+/// below the water and well above the bed; else 0.
+inline double wallRange(const IdealSurveyOptions& o, const core::Isometry& T_map_sonar, double bearing,
+                        double halfAperture) {
+  double most = 0, at = 0;
+  for (double e = -halfAperture; e <= halfAperture; e += 1e-3) {
+    const double across = (T_map_sonar.linear() * sonar::pointAt({1, bearing, e}, obs::BearingModel::Azimuth)).y();
+    if (across > most) most = across, at = e;
+  }
+  if (most < 0.3 || std::abs(at) > 0.8 * halfAperture) return 0;
+  const double r = (o.wall_y_m - T_map_sonar.translation().y()) / most;
+  const Eigen::Vector3d p = T_map_sonar * sonar::pointAt({r, bearing, at}, obs::BearingModel::Azimuth);
+  return r < 10 && p.z() < -0.3 && p.z() > reliefAt(o, p.x(), p.y()) + 0.5 ? r : 0;
+}
+
 inline IdealSurvey idealSurvey(const IdealSurveyOptions& o) {
   constexpr core::TimeNs kStart = 1'733'400'000'000'000'000;
   IdealSurvey survey;
@@ -83,7 +98,7 @@ inline IdealSurvey idealSurvey(const IdealSurveyOptions& o) {
   std::vector<core::TimedPose> poses;
   for (double t_s = -1; t_s < o.duration_s + 1; t_s += 0.01)
     poses.push_back({kStart + core::durationNs(t_s), poseAt(o, t_s)});
-  survey.trajectory = core::Trajectory(std::move(poses));
+  survey.evidence.T_map_vehicle = core::Trajectory(std::move(poses));
 
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0, o.noise_m);
@@ -106,9 +121,17 @@ inline IdealSurvey idealSurvey(const IdealSurveyOptions& o) {
         for (int b = -8; b <= 8; ++b) {
           add(0.09 * b, EchoKind::NearEdge, -1);
           add(0.09 * b, EchoKind::FarEdge, 1);
+          if (const double r = o.wall_y_m != 0 ? wallRange(o, T, 0.12 * b, half) : 0; r > 0)
+            ping.echoes.push_back(
+                {static_cast<float>(0.12 * b), static_cast<float>(r + noise(random)), EchoKind::Ridge, 0});
         }
-      survey.pings.push_back(std::move(ping));
+      survey.evidence.pings.push_back(std::move(ping));
     }
+  if (o.wall_y_m != 0)
+    survey.evidence.wallAt = [y = o.wall_y_m](double, double y_m) -> std::optional<WallPlane> {
+      if (std::abs(y_m - y) > 1) return {};
+      return WallPlane{Eigen::Vector2d::UnitY(), y};
+    };
   return survey;
 }
 

@@ -42,6 +42,15 @@ struct ScalarPrior {
   }
 };
 
+struct DepthResidual {
+  double z_m, sigma_m;
+  template <class T>
+  bool operator()(const T* const correction, T* residual) const {
+    residual[0] = (correction[kZ] - z_m) / sigma_m;
+    return true;
+  }
+};
+
 struct SecondDifference {
   double sigma;
   template <class T>
@@ -118,24 +127,44 @@ void CalibrationProblem::addRoughness(double weight) {
         nullptr, height));
 }
 
-void CalibrationProblem::addEchoes(const std::vector<UsedEcho>& echoes) {
-  std::array<double, kEchoKinds> counts{}, weights{};
-  for (const UsedEcho& used : echoes) ++counts[static_cast<std::size_t>(used.echo.kind)];
-  double together = 0;
-  for (std::size_t k = 0; k < kEchoKinds; ++k) {
+ceres::LossFunction* CalibrationProblem::loss(double weight) const {
+  return new ceres::ScaledLoss(new ceres::CauchyLoss(options_.lossWidth), weight, ceres::TAKE_OWNERSHIP);
+}
+
+void CalibrationProblem::addEcho(const UsedEcho& used, double weight) {
+  SonarState& sonar = state_[used.sonar];
+  rowTimes_.push_back(used.block);
+  if (used.wall) {
+    auto* cost = new ceres::AutoDiffCostFunction<WallResidual, 1, kSonarParameters, 1>(
+        new WallResidual{used.echo, &sonar, used.motion, used.wall->normal, used.wall->offset_m, used.weight_perM});
+    dataBlocks_.push_back(problem_.AddResidualBlock(cost, loss(weight), of(sonar), &state_.soundSpeed_mps));
+    return;
+  }
+  const auto [h00, h10, h01, h11] = grid_.corners(used.cell);
+  auto* cost = new ceres::AutoDiffCostFunction<SeabedResidual, 1, kSonarParameters, 1, 1, 1, 1, 1>(
+      new SeabedResidual{used.echo, &sonar, used.motion, grid_.corner_m(used.cell), grid_.cell_m(), used.weight_perM});
+  dataBlocks_.push_back(
+      problem_.AddResidualBlock(cost, loss(weight), of(sonar), &state_.soundSpeed_mps, h00, h10, h01, h11));
+}
+
+void CalibrationProblem::add(const RoundEvidence& evidence) {
+  std::array<double, kEvidenceKinds> counts{}, weights{};
+  for (const UsedEcho& used : evidence.echoes) ++counts[static_cast<std::size_t>(used.kind)];
+  double together = 0, all = 0;
+  for (std::size_t k = 0; k < kEvidenceKinds; ++k) {
     weights[k] = std::min(1.0, 1 / (counts[k] * options_.commonShare * options_.commonShare));
-    together += counts[k] * weights[k];
+    if (counts[k] > 0) together += counts[k] * weights[k];
+    all += counts[k];
   }
-  for (const UsedEcho& used : echoes) {
-    SonarState& sonar = state_[used.sonar];
-    const auto [h00, h10, h01, h11] = grid_.corners(used.cell);
-    auto* cost = new ceres::AutoDiffCostFunction<SeabedResidual, 1, kSonarParameters, 1, 1, 1, 1, 1>(new SeabedResidual{
-        used.echo, &sonar, used.motion, grid_.corner_m(used.cell), grid_.cell_m(), used.weight_perM});
-    auto* loss = new ceres::ScaledLoss(new ceres::CauchyLoss(options_.lossWidth),
-                                       weights[static_cast<std::size_t>(used.echo.kind)], ceres::TAKE_OWNERSHIP);
-    echoBlocks_.push_back(problem_.AddResidualBlock(cost, loss, of(sonar), &state_.soundSpeed_mps, h00, h10, h01, h11));
+  for (const UsedEcho& used : evidence.echoes) addEcho(used, weights[static_cast<std::size_t>(used.kind)]);
+  if (evidence.verticalZ_m) {
+    dataBlocks_.push_back(
+        problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<DepthResidual, 1, kSonarParameters>(
+                                      new DepthResidual{*evidence.verticalZ_m, options_.mirror.sigma_m}),
+                                  nullptr, of(state_[SonarId::Vertical])));
+    rowTimes_.push_back(0);
   }
-  addRoughness(together / static_cast<double>(std::max<std::size_t>(1, echoes.size())));
+  addRoughness(together / std::max(1.0, all));
 }
 
 void CalibrationProblem::hold(const WeakDirection& direction) {
@@ -161,11 +190,11 @@ void CalibrationProblem::solve(int iterations) {
   ceres::Solve(options, &problem_, &summary);
 }
 
-DataInformation CalibrationProblem::information(const std::vector<UsedEcho>& echoes) {
+DataInformation CalibrationProblem::information() {
   ceres::Problem::EvaluateOptions evaluate;
   evaluate.parameter_blocks = {of(state_.sonars[0]), of(state_.sonars[1]), &state_.soundSpeed_mps};
   for (double* height : grid_.nodes()) evaluate.parameter_blocks.push_back(height);
-  evaluate.residual_blocks = echoBlocks_;
+  evaluate.residual_blocks = dataBlocks_;
   for (const auto* more : {&nuisanceBlocks_, &seabedBlocks_})
     evaluate.residual_blocks.insert(evaluate.residual_blocks.end(), more->begin(), more->end());
   evaluate.num_threads = options_.threads;
@@ -195,8 +224,8 @@ DataInformation CalibrationProblem::information(const std::vector<UsedEcho>& ech
   DataInformation data;
   data.information = reduced.transpose() * reduced;
   std::vector<WantedVector> gradients;
-  for (std::size_t k = 0; k < echoes.size(); ++k) {
-    const auto block = static_cast<std::size_t>(echoes[k].block);
+  for (std::size_t k = 0; k < rowTimes_.size(); ++k) {
+    const auto block = static_cast<std::size_t>(rowTimes_[k]);
     if (gradients.size() <= block) gradients.resize(block + 1, WantedVector::Zero());
     gradients[block] += reduced.row(static_cast<Eigen::Index>(k)).transpose() * residuals[k];
   }

@@ -5,10 +5,11 @@
 #include <deque>
 #include <vector>
 
+#include "s2s/calib/calibrator.h"
 #include "s2s/calib/observability.h"
 #include "s2s/calib/options.h"
 #include "s2s/calib/seabed_grid.h"
-#include "s2s/calib/surface_residual.h"
+#include "s2s/calib/wall_residual.h"
 
 namespace s2s::calib {
 
@@ -16,31 +17,41 @@ namespace s2s::calib {
 struct UsedEcho {
   Echo echo;
   SonarId sonar = SonarId::Horizontal;
+  EvidenceKind kind = EvidenceKind::NearEdge;
   const PingMotion* motion = nullptr;
-  int block = 0;  ///< of time
-  SeabedGrid::Index cell;
+  int block = 0;                  ///< of time
+  SeabedGrid::Index cell;         ///< of the seabed that it lies on, ...
+  std::optional<WallPlane> wall;  ///< ... or the wall
   double weight_perM = 1;
 };
 
-/// The least-squares problem of one round: echoes against the seabed's heights, what is known beforehand, and
-/// directions that are held.
+/// All evidence of a round.
+struct RoundEvidence {
+  std::optional<double> verticalZ_m;  ///< correction kZ of the vertical sonar, as the water surface tells it
+  std::vector<UsedEcho> echoes;
+};
+
+/// The least-squares problem of one round: echoes against the seabed's heights and walls, what is known
+/// beforehand, and directions that are held.
 class CalibrationProblem {
  public:
   /// `state` and `grid` are the variables; both must outlive the problem, as must the motions of the echoes.
   CalibrationProblem(CalibrationState& state, SeabedGrid& grid, const CalibrationOptions& options);
 
   /// To be called once, before anything else.
-  void addEchoes(const std::vector<UsedEcho>& echoes);
+  void add(const RoundEvidence& evidence);
   /// Holds a combination of parameters at its nominal value.
   void hold(const WeakDirection& direction);
   /// Nothing but the seabed moves.
   void fixParameters();
   void solve(int iterations);
-  /// What the echoes say about the wanted parameters. @param echoes those of `addEchoes`, in their order
-  DataInformation information(const std::vector<UsedEcho>& echoes);
+  /// What the evidence says about the wanted parameters.
+  DataInformation information();
 
  private:
   void addPriors();
+  void addEcho(const UsedEcho& used, double weight);
+  ceres::LossFunction* loss(double weight) const;
   /// @param weight of the squares, as the echoes have on average
   void addRoughness(double weight);
 
@@ -48,7 +59,8 @@ class CalibrationProblem {
   SeabedGrid& grid_;
   const CalibrationOptions& options_;
   ceres::Problem problem_;
-  std::vector<ceres::ResidualBlockId> echoBlocks_, seabedBlocks_, nuisanceBlocks_;
+  std::vector<ceres::ResidualBlockId> dataBlocks_, seabedBlocks_, nuisanceBlocks_;
+  std::vector<int> rowTimes_;  ///< block of time of each row of the data
 };
 
 }  // namespace s2s::calib

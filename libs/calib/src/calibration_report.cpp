@@ -89,11 +89,17 @@ std::string reportText(const CalibrationResult& result) {
     const double before = nominalOf(result.state, v) - nominalOf(result.state, h);
     text += row(kNames[k], unitOf(kindOf(h)), before, before + x[v] - x[h], o.relative[k]);
   }
-  static const char* const kKinds[kEchoKinds] = {"near edges", "far edges", "upright bands"};
+  static const char* const kKinds[kEvidenceKinds] = {"near edges", "far edges", "upright bands", "ridges of walls",
+                                                     "bands at walls"};
   text += "\n";
-  for (std::size_t k = 0; k < kEchoKinds; ++k)
-    text += mrpt::format("  %-14s %7zu used, %7zu left out, range spread %.3f m\n", kKinds[k],
-                         result.statistics.echoes[k], result.statistics.leftOut[k], result.statistics.rangeSigma_m[k]);
+  for (std::size_t k = 0; k < kEvidenceKinds; ++k)
+    text += mrpt::format("  %-14s %7zu used, %7zu left out, spread %.3f m\n", kKinds[k], result.statistics.used[k],
+                         result.statistics.leftOut[k], result.statistics.sigma_m[k]);
+  if (const auto& mirror = result.statistics.mirror)
+    text += mrpt::format("  echoes by way of the water surface: %zu traces, strength %.2f, %.0f %% explained\n",
+                         mirror->traces, mirror->strength, 100 * mirror->explained);
+  else
+    text += "  echoes by way of the water surface: none; the height of both sonars needs a bar check\n";
   for (const SonarId id : kSonars)
     text += mrpt::format("  %-10s aperture %+.2f deg (near edge) %+.2f deg (far edge), ranges %+.4f m\n", sonarName(id),
                          result.state[id].correction[kNear] * kDegrees, result.state[id].correction[kFar] * kDegrees,

@@ -12,6 +12,11 @@ constexpr double kEndMargin_m = 0.2;
 /// A longer band is blurred by noise, and so is its centre.
 constexpr double kLongestMiddle_m = 0.25;
 
+/// Up component of the imaging plane's normal: the sine of the plane's angle to the vertical.
+double upOf(const core::Isometry& T_vehicle_sonar) { return T_vehicle_sonar.linear()(2, 2); }
+
+float lowerEdge(const core::Isometry& T_vehicle_sonar) { return upOf(T_vehicle_sonar) > 0 ? -1.0F : 1.0F; }
+
 void addMiddle(const Swath& swath, bool upper, std::vector<Echo>& echoes) {
   const double share = (upper ? 1 : -1) / std::sqrt(3.0);
   echoes.push_back({static_cast<float>(swath.bearing_rad), static_cast<float>(swath.middle_m), EchoKind::Middle,
@@ -27,11 +32,23 @@ void addEdges(const Swath& swath, float lower, double maxRange_m, std::vector<Ec
 
 }  // namespace
 
+std::vector<Echo> returnsOf(const sonar::LineScan& scan, const core::Isometry& T_vehicle_sonar, int beamStep) {
+  const float lower = lowerEdge(T_vehicle_sonar);
+  std::vector<Echo> echoes;
+  for (const auto& r : scan.returns) {
+    if (r.beam % static_cast<std::uint32_t>(beamStep) != 0) continue;
+    const auto bearing = static_cast<float>(r.bearing_rad), range = static_cast<float>(r.range_m);
+    if (r.isRidge)
+      echoes.push_back({bearing, range, EchoKind::Ridge, 0});
+    else if (r.order == 0)
+      echoes.push_back({bearing, range, EchoKind::NearEdge, lower});
+  }
+  return echoes;
+}
+
 std::vector<Echo> echoesOf(const std::vector<Swath>& swaths, const core::Isometry& T_vehicle_sonar, double aperture_rad,
                            double maxRange_m) {
-  // Up component of the imaging plane's normal: the sine of the plane's angle to the vertical.
-  const double up = T_vehicle_sonar.linear()(2, 2);
-  const bool upright = std::abs(up) < std::sin(aperture_rad);
+  const bool upright = std::abs(upOf(T_vehicle_sonar)) < std::sin(aperture_rad);
   std::vector<Echo> echoes;
   bool upper = false;
   for (const Swath& swath : swaths) {
@@ -39,7 +56,7 @@ std::vector<Echo> echoesOf(const std::vector<Swath>& swaths, const core::Isometr
     if (upright)
       addMiddle(swath, upper = !upper, echoes);
     else
-      addEdges(swath, up > 0 ? -1.0F : 1.0F, maxRange_m, echoes);
+      addEdges(swath, lowerEdge(T_vehicle_sonar), maxRange_m, echoes);
   }
   return echoes;
 }

@@ -46,6 +46,18 @@ core::OptionTable optionTable(CalibrationOptions& o) {
   return table;
 }
 
+core::OptionTable optionTable(WaterMirrorOptions& o) {
+  core::OptionTable table;
+  table.add("enabled", o.enabled, "Echoes by way of the water surface tell how deep the vertical sonar is");
+  table.add("beam_step", o.beamStep, "One beam in so many is looked at", {1, 1000});
+  table.add("reach_m", o.reach_m, "They are looked for so far from where they should be", {0.02, 0.5});
+  table.add("min_strength", o.minStrength, "Least strength, as a share of the first echo", {0, 1});
+  table.add("min_explained", o.minExplained, "Least share of what the first echo leaves unexplained", {0, 1});
+  table.add("min_traces", o.minTraces, "Fewer first echoes tell nothing", {1, 1e7});
+  table.add("sigma_m", o.sigma_m, "Standard deviation of the depth so found", core::positive());
+  return table;
+}
+
 core::OptionTable optionTable(SwathOptions& o) {
   core::OptionTable table;
   table.add("beam_step", o.beamStep, "One beam in so many is looked at", {1, 1000});

@@ -25,6 +25,7 @@ Sections sectionsOf(SurveyConfig& config) {
                        {"map.view", map::optionTable(config.map.view)},
                        {"products", products::optionTable(config.products)},
                        {"calibration", calib::optionTable(config.calibration)},
+                       {"calibration.mirror", calib::optionTable(config.calibration.mirror)},
                        {"calibration.swath", calib::optionTable(config.swath)}};
   for (auto& section : graph::optionSections(config.graph)) sections.push_back(std::move(section));
   return sections;

@@ -3,19 +3,29 @@
 #include <functional>
 #include <vector>
 
-#include "s2s/calib/echo_table.h"
+#include "s2s/calib/evidence.h"
 #include "s2s/calib/observability.h"
 #include "s2s/calib/options.h"
 #include "s2s/calib/sonar_parameters.h"
-#include "s2s/core/trajectory.h"
 
 namespace s2s::calib {
 
+/// What a single piece of evidence holds against what.
+enum class EvidenceKind : std::uint8_t {
+  NearEdge = 0,  ///< first echo of the horizontal sonar on the seabed
+  FarEdge = 1,   ///< end of its band there
+  Middle = 2,    ///< band of the vertical sonar on the seabed
+  WallEdge = 3,  ///< echo of the horizontal sonar on a wall
+  WallBand = 4,  ///< band of the vertical sonar on a wall
+};
+constexpr std::size_t kEvidenceKinds = 5;
+
 /// What was used and how well it fits.
 struct CalibrationStatistics {
-  std::array<std::size_t, kEchoKinds> echoes{};   ///< used in the last round, by kind
-  std::array<std::size_t, kEchoKinds> leftOut{};  ///< beyond the gate or where there is no seabed
-  std::array<double, kEchoKinds> rangeSigma_m{};  ///< spread of the ranges around the surface
+  std::array<std::size_t, kEvidenceKinds> used{};     ///< in the last round
+  std::array<std::size_t, kEvidenceKinds> leftOut{};  ///< beyond the gate or where there is no surface
+  std::optional<MirrorDepth> mirror;                  ///< echoes by way of the water surface
+  std::array<double, kEvidenceKinds> sigma_m{};       ///< spread of the ranges around the surface
 };
 
 struct CalibrationResult {
@@ -25,14 +35,14 @@ struct CalibrationResult {
 };
 
 /// Estimates both sonars' mountings and time offsets and the sound speed from echoes along a known trajectory, together
-/// with the heights of the seabed: whatever is wrong makes the same seabed come out at different heights.
+/// with the heights of the seabed: whatever is wrong makes the same seabed come out at different heights and walls away
+/// from where the LiDAR sees them above the water. How deep the sonars are is told by echoes over the water surface.
 ///
-/// @param nominal      known beforehand; where the data tell nothing, this stays
-/// @param T_map_vehicle z up
-/// @param onRound      called after each round of association with the number done and their total
+/// @param nominal  known beforehand; where the data tell nothing, this stays
+/// @param onRound  called after each round of association with the number done and their total
 /// @throws core::InputError if there are too few echoes
-CalibrationResult calibrate(const CalibrationState& nominal, const std::vector<PingEchoes>& pings,
-                            const core::Trajectory& T_map_vehicle, const CalibrationOptions& options,
+CalibrationResult calibrate(const CalibrationState& nominal, const CalibrationEvidence& evidence,
+                            const CalibrationOptions& options,
                             const std::function<void(int done, int total)>& onRound = {});
 
 }  // namespace s2s::calib

@@ -6,6 +6,7 @@
 #include "s2s/calib/sonar_parameters.h"
 #include "s2s/calib/swath.h"
 #include "s2s/core/time.h"
+#include "s2s/sonar/leading_edge.h"
 
 namespace s2s::calib {
 
@@ -13,9 +14,9 @@ namespace s2s::calib {
 enum class EchoKind : std::uint8_t {
   NearEdge = 0,  ///< the band begins: the lower edge of the aperture meets the seabed
   FarEdge = 1,   ///< the band ends: the upper edge meets it
-  Middle = 2     ///< centre of the band of a plane that crosses the seabed upright: the mean over the aperture
+  Middle = 2,    ///< centre of the band of a plane that crosses the seabed upright: the mean over the aperture
+  Ridge = 3      ///< stands out of the bed's echo: of a wall behind it, at an unknown elevation
 };
-constexpr std::size_t kEchoKinds = 3;
 
 struct Echo {
   float bearing_rad = 0, range_m = 0;
@@ -39,5 +40,10 @@ struct PingEchoes {
 /// of Gauss' quadrature, +-1/sqrt(3) of half the aperture, on every other beam.
 std::vector<Echo> echoesOf(const std::vector<Swath>& swaths, const core::Isometry& T_vehicle_sonar, double aperture_rad,
                            double maxRange_m);
+
+/// First returns of a sonar whose plane crosses the vertical as near edges, one beam in `beamStep`, and the ridges
+/// behind them. They are those of the map, so what the calibration calls the aperture's edge is what the map takes for
+/// it.
+std::vector<Echo> returnsOf(const sonar::LineScan& scan, const core::Isometry& T_vehicle_sonar, int beamStep);
 
 }  // namespace s2s::calib

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "s2s/calib/swath.h"
+#include "s2s/calib/water_mirror.h"
 
 namespace s2s::calib {
 
@@ -28,6 +29,8 @@ struct CalibrationOptions {
   /// Share of the ranges' spread that is common to all echoes of a kind (how a device shapes its bands, texture, the
   /// bend of a cell): however many there are, together they tell no more than 1 / share^2 independent ones.
   double commonShare = 0.05;
+
+  WaterMirrorOptions mirror;  ///< section [calibration.mirror]
 
   // What is known beforehand: how far the truth may be from the nominal values
   double positionSigma_m = 0.1;

@@ -29,46 +29,78 @@ Eigen::Matrix<T, 3, 1> rotate(const Eigen::Matrix<T, 3, 1>& w, const Eigen::Matr
   return p + (sin(angle) / angle) * wp + ((T(1) - cos(angle)) / angle2) * w.cross(wp);
 }
 
-/// The place in the map of an echo: beam model, range and bearing for the sound speed, aperture, mounting, time.
+/// Range and sine of the bearing as they would be without the errors that are estimated.
 ///
 /// A device that believes c_d in water of c scales ranges by c_d / c and steers by delays, so
-///   r = r_measured c / c_d - range error,   sin b = sin b_measured c / c_d,
-/// and the elevation is that of the echo's kind. To first order the vehicle at another time offset has moved on by
-/// (kTime - timeOffset) seconds less of its motion.
+///   r = r_measured c / c_d - range error,   sin b = sin b_measured c / c_d.
 template <class T>
-Eigen::Matrix<T, 3, 1> echoPoint(const Echo& echo, const SonarState& sonar, const PingMotion& motion,
-                                 const T* const correction, const T& soundSpeed_mps) {
+struct CorrectedBeam {
+  T range_m, sinBearing;
+  CorrectedBeam(double range, double bearing, const SonarState& sonar, const T* const correction,
+                const T& soundSpeed_mps) {
+    const T ratio = soundSpeed_mps / T(sonar.deviceSoundSpeed_mps);
+    range_m = T(range) * ratio - (correction[kRange] + correction[kScale] * range + correction[kRangeTilt] * bearing +
+                                  correction[kRangeBend] * (bearing * bearing));
+    sinBearing = T(std::sin(bearing)) * ratio;
+  }
+};
+
+/// The point of a beam at an elevation, in the sonar's frame.
+template <class T>
+Eigen::Matrix<T, 3, 1> beamPoint(const CorrectedBeam<T>& beam, const T& elevation, obs::BearingModel model) {
   using std::cos;
   using std::sin;
   using std::sqrt;
   using Vector = Eigen::Matrix<T, 3, 1>;
-  const T ratio = soundSpeed_mps / T(sonar.deviceSoundSpeed_mps);
+  const T sinE = sin(elevation), cosE = cos(elevation), sinB = beam.sinBearing;
+  if (model == obs::BearingModel::Azimuth)
+    return Vector(cosE * sqrt(T(1) - sinB * sinB), cosE * sinB, sinE) * beam.range_m;
+  return Vector(sqrt(T(1) - sinB * sinB - sinE * sinE), sinB, sinE) * beam.range_m;
+}
+
+/// From a sonar's frame to the vehicle's, with the correction of the mounting.
+template <class T>
+Eigen::Matrix<T, 3, 1> toVehicle(const Eigen::Matrix<T, 3, 1>& p_sonar, const SonarState& sonar,
+                                 const T* const correction) {
+  using Vector = Eigen::Matrix<T, 3, 1>;
+  const Vector turned = rotate<T>(Vector(correction[kRotX], correction[kRotY], correction[kRotZ]), p_sonar);
+  return sonar.T_vehicle_sonar.linear().template cast<T>() * turned +
+         sonar.T_vehicle_sonar.translation().template cast<T>() +
+         Vector(correction[kX], correction[kY], correction[kZ]);
+}
+
+/// From the vehicle's frame to the map's. To first order the vehicle at another time offset has moved on by (kTime -
+/// timeOffset) seconds less of its motion.
+template <class T>
+Eigen::Matrix<T, 3, 1> toMap(const Eigen::Matrix<T, 3, 1>& p_vehicle, const PingMotion& motion,
+                             const T* const correction) {
+  const T later = T(motion.timeOffset_s) - correction[kTime];
+  const Eigen::Matrix<T, 3, 1> moved =
+      motion.velocity_mps.template cast<T>() + motion.rate_radps.template cast<T>().cross(p_vehicle);
+  const Eigen::Matrix<T, 3, 1> p_then = p_vehicle + moved * later;
+  return motion.T_map_vehicle.linear().template cast<T>() * p_then +
+         motion.T_map_vehicle.translation().template cast<T>();
+}
+
+/// The place in the map of an echo: the beam at the elevation of the echo's kind, mounting, time.
+template <class T>
+Eigen::Matrix<T, 3, 1> echoPoint(const Echo& echo, const SonarState& sonar, const PingMotion& motion,
+                                 const T* const correction, const T& soundSpeed_mps) {
   const auto bearing = static_cast<double>(echo.bearing_rad);
-  const T rangeError = correction[kRange] + correction[kScale] * static_cast<double>(echo.range_m) +
-                       correction[kRangeTilt] * bearing + correction[kRangeBend] * (bearing * bearing);
-  const T range = T(echo.range_m) * ratio - rangeError;
-  const T sinBearing = T(std::sin(bearing)) * ratio;
-  const T cosBearing = sqrt(T(1) - sinBearing * sinBearing);
+  const CorrectedBeam<T> beam(echo.range_m, bearing, sonar, correction, soundSpeed_mps);
   T beyond(0);
   if (echo.kind == EchoKind::NearEdge) beyond = correction[kNear] + correction[kNearBend] * (bearing * bearing);
   if (echo.kind == EchoKind::FarEdge) beyond = correction[kFar] + correction[kFarBend] * (bearing * bearing);
   const T elevation = T(echo.elevationShare) * (T(0.5 * sonar.aperture_rad) + beyond);
-  const T sinE = sin(elevation), cosE = cos(elevation);
-  Vector p_sonar;
-  if (sonar.model == obs::BearingModel::Azimuth)
-    p_sonar = Vector(cosE * cosBearing, cosE * sinBearing, sinE) * range;
-  else
-    p_sonar = Vector(sqrt(T(1) - sinBearing * sinBearing - sinE * sinE), sinBearing, sinE) * range;
+  return toMap<T>(toVehicle<T>(beamPoint<T>(beam, elevation, sonar.model), sonar, correction), motion, correction);
+}
 
-  const Vector turned = rotate<T>(Vector(correction[kRotX], correction[kRotY], correction[kRotZ]), p_sonar);
-  const Vector t =
-      sonar.T_vehicle_sonar.translation().template cast<T>() + Vector(correction[kX], correction[kY], correction[kZ]);
-  const Vector p_vehicle = sonar.T_vehicle_sonar.linear().template cast<T>() * turned + t;
-  const T later = T(motion.timeOffset_s) - correction[kTime];
-  const Vector moved = motion.velocity_mps.template cast<T>() + motion.rate_radps.template cast<T>().cross(p_vehicle);
-  const Vector p_vehicle_then = p_vehicle + moved * later;
-  return motion.T_map_vehicle.linear().template cast<T>() * p_vehicle_then +
-         motion.T_map_vehicle.translation().template cast<T>();
+/// Height of a bilinear surface above the place (x, y) of a cell.
+template <class T>
+T bilinear(const T& x, const T& y, const Eigen::Vector2d& corner_m, double cell_m, const T* const h00,
+           const T* const h10, const T* const h01, const T* const h11) {
+  const T u = (x - T(corner_m.x())) / T(cell_m), v = (y - T(corner_m.y())) / T(cell_m);
+  return (T(1) - u) * (T(1) - v) * *h00 + u * (T(1) - v) * *h10 + (T(1) - u) * v * *h01 + u * v * *h11;
 }
 
 /// How far an echo's point lies above a seabed given by heights at the four corners of a grid cell, in standard
@@ -85,9 +117,7 @@ struct SeabedResidual {
   bool operator()(const T* const correction, const T* const soundSpeed, const T* const h00, const T* const h10,
                   const T* const h01, const T* const h11, T* residual) const {
     const auto p = echoPoint<T>(echo, *sonar, *motion, correction, *soundSpeed);
-    const T u = (p.x() - T(corner_m.x())) / T(cell_m), v = (p.y() - T(corner_m.y())) / T(cell_m);
-    const T seabed = (T(1) - u) * (T(1) - v) * *h00 + u * (T(1) - v) * *h10 + (T(1) - u) * v * *h01 + u * v * *h11;
-    residual[0] = (p.z() - seabed) * T(weight_perM);
+    residual[0] = (p.z() - bilinear<T>(p.x(), p.y(), corner_m, cell_m, h00, h10, h01, h11)) * T(weight_perM);
     return true;
   }
 };
