@@ -69,7 +69,7 @@ struct Best {
   double delta = 0, strength = 0, cost = 0;
 };
 
-/// The best strength for a place: coarse steps, then the parabola through the best three.
+/// The best strength for a place, in coarse steps.
 Best bestStrength(const Stack& stack, double delta) {
   constexpr double kStep = 0.05;
   std::vector<double> costs;
@@ -83,7 +83,8 @@ Best bestStrength(const Stack& stack, double delta) {
 
 Best bestPlace(const Stack& stack, double reach_bins) {
   std::vector<Best> tried;
-  for (double delta = -reach_bins; delta <= reach_bins; ++delta) tried.push_back(bestStrength(stack, delta));
+  const int reach = static_cast<int>(std::lround(reach_bins));
+  for (int delta = -reach; delta <= reach; ++delta) tried.push_back(bestStrength(stack, delta));
   const auto least = static_cast<std::size_t>(
       std::min_element(tried.begin(), tried.end(), [](const Best& a, const Best& b) { return a.cost < b.cost; }) -
       tried.begin());
