@@ -10,7 +10,6 @@ using s2s::core::Isometry;
 using s2s::core::isometryFromXyzYpr;
 using s2s::core::kNsPerSecond;
 using s2s::core::TimeNs;
-using s2s::map::Keyframe;
 using s2s::map::Keyframes;
 using s2s::map::PoseInterpolation;
 

@@ -106,7 +106,7 @@ TEST_F(MapSerialization, EveryTruncation_ThrowsAndCrashesNot) {
 
 TEST_F(MapSerialization, CopyOfAMultiMetricMap_KeepsOurMap) {
   mrpt::maps::CMultiMetricMap maps;
-  maps.maps.push_back(CSeabedSkyMap::Ptr(new CSeabedSkyMap(sampleMap())));
+  maps.maps.push_back(std::make_shared<CSeabedSkyMap>(sampleMap()));
   const mrpt::maps::CMultiMetricMap copy(maps);
   maps.maps.clear();
   const auto map = std::dynamic_pointer_cast<CSeabedSkyMap>(copy.maps.at(0));

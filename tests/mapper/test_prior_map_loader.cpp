@@ -19,13 +19,22 @@ core::Trajectory keyframes() {
 }
 
 /// A wall of points seen from each keyframe.
+/// 10 m x 5 m, 8 m ahead.
+graph::Cloud wall() {
+  graph::Cloud points;
+  for (int column = 0; column < 20; ++column)
+    for (int row = 0; row < 10; ++row)
+      points.emplace_back(8, 0.5F * static_cast<float>(column), 0.5F * static_cast<float>(row));
+  return points;
+}
+
 void writeCloud(const std::string& path, core::TimeNs shift) {
   products::PlyPointWriter writer(path);
   const core::Trajectory from = keyframes();
   for (const auto& pose : from.poses())
-    for (int i = 0; i < 200; ++i) {
+    for (const Eigen::Vector3f& p_vehicle : wall()) {
       map::MapPoint point;
-      point.p_map = pose.T * Eigen::Vector3d(8, 0.5 * (i % 20), 0.5 * (i / 20));
+      point.p_map = pose.T * p_vehicle.cast<double>();
       point.time = pose.time + shift;
       writer.add(point);
     }
@@ -40,10 +49,8 @@ TEST(PriorMapLoader, MapOfARun_ComesBackAsKeyframesWithClouds) {
   EXPECT_EQ(prior->size(), 3U);
   EXPECT_NEAR(prior->distanceTo_m({20, 5, 0.1}), 0, 1e-6);
   // The middle keyframe's wall registers where it was seen from.
-  graph::Cloud wall;
-  for (int i = 0; i < 200; ++i) wall.emplace_back(8, 0.5F * (i % 20), 0.5F * (i / 20));
   const core::Trajectory from = keyframes();
-  const auto fix = prior->registerAt(from.poses()[1].T, wall);
+  const auto fix = prior->registerAt(from.poses()[1].T, wall());
   EXPECT_GT(fix.overlap, 0.9);
   EXPECT_LT(fix.rmse_m, 1e-3);
 }
