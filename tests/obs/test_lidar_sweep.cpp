@@ -126,7 +126,7 @@ TEST(LidarSweep, TextExport_HasTheMeanRangeOfEachRow) {
   std::vector<double> values;
   for (double value = 0; row >> value;) values.push_back(value);
   ASSERT_EQ(values.size(), 6u);
-  EXPECT_NEAR(values[4], (1000 + 300'000) / 2 * 0.002, 1e-4);
+  EXPECT_NEAR(values[4], (1000 + 300000) * 0.001, 1e-4);
   EXPECT_NEAR(values[5], 6 * 0.002, 1e-4);
 }
 
