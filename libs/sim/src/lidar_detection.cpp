@@ -11,21 +11,31 @@ LidarEcho echoOf(const RayHit& hit, const Ray& ray, const Material& material) {
   return {hit.range_m, material.reflectivity * cosIncidence, cosIncidence};
 }
 
-void mixPixels(std::vector<LidarEcho>& column, double beamSpacing_rad, const LidarEffects& e, Random& random) {
-  const double probability = std::min(1.0, e.beamDivergence_rad / beamSpacing_rad);
-  for (std::size_t row = 0; row + 1 < column.size(); ++row) {
-    LidarEcho& a = column[row];
-    const LidarEcho& b = column[row + 1];
-    if (!a.present() || !b.present()) continue;
-    const double gap_m = std::abs(a.range_m - b.range_m);
-    // Below a few centimetres, or on a surface that merely recedes, there is no edge.
-    const double smooth_m = 0.1 + 3 * a.range_m * beamSpacing_rad / std::min(a.cosIncidence, b.cosIncidence);
-    if (gap_m < smooth_m || gap_m > e.mixedMaxGap_m || random.uniform() > probability) continue;
-    const double share = random.uniform();
-    const double weightA = share * a.brightness, weightB = (1 - share) * b.brightness;
-    a.range_m = (weightA * a.range_m + weightB * b.range_m) / (weightA + weightB);
-    a.brightness = weightA + weightB;
-  }
+namespace {
+
+double besideAngle_rad(const LidarEffects& e) { return M_PI * 0.5 * e.beamDivergence_rad; }
+
+}  // namespace
+
+Eigen::Vector3f directionBeside(const Eigen::Vector3f& direction, const LidarEffects& e, Random& random) {
+  const Eigen::Vector3f across = direction.unitOrthogonal(), other = direction.cross(across);
+  const auto side = static_cast<float>(random.uniform(0, 2 * M_PI));
+  const auto angle = static_cast<float>(besideAngle_rad(e));
+  return std::cos(angle) * direction + std::sin(angle) * (std::cos(side) * across + std::sin(side) * other);
+}
+
+void mixPixel(LidarEcho& echo, const LidarEcho& beside, const LidarEffects& e, Random& random) {
+  if (!echo.present() || !beside.present()) return;
+  const double gap_m = std::abs(echo.range_m - beside.range_m);
+  // Below a few centimetres, or on a surface that merely recedes, there is no edge.
+  const double smooth_m =
+      0.1 + 3 * echo.range_m * besideAngle_rad(e) / std::min(echo.cosIncidence, beside.cosIncidence);
+  if (gap_m < smooth_m || gap_m > e.mixedMaxGap_m) return;
+  // The beam's middle is on its own surface, so more than half of the footprint is.
+  const double share = random.uniform(0.5, 1.0);
+  const double own = share * echo.brightness, other = (1 - share) * beside.brightness;
+  echo.range_m = (own * echo.range_m + other * beside.range_m) / (own + other);
+  echo.brightness = own + other;
 }
 
 double detectedRange_m(const LidarEcho& echo, const LidarEffects& e, Random& random) {

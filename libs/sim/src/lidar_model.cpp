@@ -62,9 +62,9 @@ void parseLidarMode(const std::string& text, LidarOptions& o) {
 
 /// Buffers of one column.
 struct LidarModel::Column {
-  std::vector<Ray> rays;
+  std::vector<Ray> rays, raysBeside;
   std::vector<double> water_m;  // range at which the beam meets the water; infinite if it does not
-  std::vector<RayHit> hits;
+  std::vector<RayHit> hits, hitsBeside;
   std::vector<LidarEcho> echoes;
 };
 
@@ -142,6 +142,18 @@ void LidarModel::addWater(Random& random, Column& work) const {
   }
 }
 
+void LidarModel::mixAtEdges(Random& random, Column& work) const {
+  work.raysBeside = work.rays;
+  for (Ray& ray : work.raysBeside) ray.direction = directionBeside(ray.direction, options_.effects, random);
+  caster_.cast(work.raysBeside, work.hitsBeside);
+  for (std::size_t row = 0; row < work.echoes.size(); ++row) {
+    const RayHit& hit = work.hitsBeside[row];
+    if (!hit.hit()) continue;
+    const Material& material = scene_.materials[scene_.objects[hit.object].material];
+    mixPixel(work.echoes[row], echoOf(hit, work.raysBeside[row], material), options_.effects, random);
+  }
+}
+
 void LidarModel::findEchoes(std::size_t column, Random& random, Column& work) const {
   caster_.cast(work.rays, work.hits);
   work.echoes.assign(work.rays.size(), {});
@@ -149,6 +161,7 @@ void LidarModel::findEchoes(std::size_t column, Random& random, Column& work) co
     if (work.hits[row].hit())
       work.echoes[row] =
           echoOf(work.hits[row], work.rays[row], scene_.materials[scene_.objects[work.hits[row].object].material]);
+  if (options_.effects.mixedPixels) mixAtEdges(random, work);
   if (options_.effects.waterReturns || options_.effects.waterGhosts) addWater(random, work);
   if (!ownVessel_.empty())
     for (std::size_t row = 0; row < work.rays.size(); ++row) {
@@ -156,8 +169,6 @@ void LidarModel::findEchoes(std::size_t column, Random& random, Column& work) co
       if (own.present() && (!work.echoes[row].present() || own.range_m < work.echoes[row].range_m))
         work.echoes[row] = own;
     }
-  if (options_.effects.mixedPixels && options_.rows > 1)
-    mixPixels(work.echoes, options_.verticalFov_rad / (options_.rows - 1), options_.effects, random);
 }
 
 obs::CObservationLidarSweep::Ptr LidarModel::sweep(const VesselMotion& motion, double t_s, core::TimeNs time,

@@ -45,9 +45,14 @@ struct LidarEcho {
 /// Brightness of a hit: Lambert's cosine, or far more from retro-reflective foil up to 60 degrees.
 LidarEcho echoOf(const RayHit& hit, const Ray& ray, const Material& material);
 
-/// Neighbouring beams of a column at an edge: the footprint lies on both surfaces with the probability that it is wide
-/// enough, and the range comes out between them (Tang, Huber & Akinci 2007, mixed pixels).
-void mixPixels(std::vector<LidarEcho>& column, double beamSpacing_rad, const LidarEffects& effects, Random& random);
+/// A direction beside a beam's, at a random side of it, that tells whether the beam's footprint lies on an edge. It is
+/// so far off that it falls across a straight edge as often as the edge crosses the footprint: an edge x away is met
+/// with probability acos(x/angle)/pi, which is angle/pi in all, so the angle is pi times the footprint's radius.
+Eigen::Vector3f directionBeside(const Eigen::Vector3f& direction, const LidarEffects& effects, Random& random);
+
+/// A beam's echo and that of the direction beside it: at an edge they merge, and the range comes out between them
+/// (Tang, Huber & Akinci 2007, mixed pixels).
+void mixPixel(LidarEcho& echo, const LidarEcho& beside, const LidarEffects& effects, Random& random);
 
 /// Echo of a beam that meets the water surface (height 0 in the world): sparse returns from the surface itself.
 LidarEcho waterReturn(const Ray& ray, double rangeToWater_m, const LidarEffects& effects, Random& random);

@@ -40,6 +40,7 @@ class LidarModel {
   void makeRays(const core::Isometry& T_world_sensor, std::size_t column, Column& work) const;
   void findEchoes(std::size_t column, Random& random, Column& work) const;
   void addWater(Random& random, Column& work) const;
+  void mixAtEdges(Random& random, Column& work) const;
 
   LidarOptions options_;
   core::Isometry T_vehicle_sensor_;
