@@ -80,7 +80,8 @@ TEST(Registration, Jacobian_MatchesNumericDifferences) {
   BodyPoints points;
   const core::Isometry T = core::isometryFromXyzYpr(3, -2, 1, 0.4, 0.2, -0.3);
   for (int patch = 0; patch < 6; ++patch) {
-    const Vector3d centre(20 + 40 * (patch % 3), 20 + 40 * (patch / 3), 20);
+    const int row = patch / 3, column = patch % 3;
+    const Vector3d centre(20 + 40 * column, 20 + 40 * row, 20);
     const Vector3d normal = random.gaussian3(1).normalized();
     const Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
     std::vector<Vector3d> surface;

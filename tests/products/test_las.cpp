@@ -27,7 +27,11 @@ class LasBytes {
     std::memcpy(&value, bytes_.data() + place, sizeof value);
     return value;
   }
-  std::string text(std::size_t place, std::size_t length) const { return bytes_.substr(place, length).c_str(); }
+  /// Up to the first zero byte.
+  std::string text(std::size_t place, std::size_t length) const {
+    const std::string field = bytes_.substr(place, length);
+    return field.substr(0, field.find('\0'));
+  }
   std::size_t size() const { return bytes_.size(); }
 
   std::size_t pointOffset() const { return at<std::uint32_t>(96); }

@@ -124,8 +124,9 @@ TEST(WriteProducts, MapAsSource_GivesTheSeabedOfTheMapsOwnSurface) {
   mapOptions.surface.cell_m = 2;
   map::CSeabedSkyMap map(mapOptions);
   std::vector<map::ScanPoint> bed;
-  for (int i = 0; i < 100; ++i)
-    bed.push_back({{0.1F * static_cast<float>(i % 10), 0.1F * static_cast<float>(i / 10), -4}, 100, 0.05F});
+  for (int row = 0; row < 10; ++row)
+    for (int column = 0; column < 10; ++column)
+      bed.push_back({{0.1F * static_cast<float>(column), 0.1F * static_cast<float>(row), -4}, 100, 0.05F});
   map.insertScan(map::Layer::Stereo, 0, core::Isometry::Identity(), bed);
   auto options = quickOptions();
   options.geoTiff = true;

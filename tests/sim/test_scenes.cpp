@@ -89,7 +89,8 @@ TEST(SceneLoader, RepeatAndOnSeabed_PlaceCopies) {
   ASSERT_EQ(mesh.vertices.size(), 24u);
   for (int copy = 0; copy < 3; ++copy) {
     float low = 10;
-    for (int i = 0; i < 8; ++i) low = std::min(low, mesh.vertices[static_cast<std::size_t>(8 * copy + i)].z());
+    for (int i = 0; i < 8; ++i)
+      low = std::min(low, mesh.vertices.at(8 * static_cast<std::size_t>(copy) + static_cast<std::size_t>(i)).z());
     EXPECT_NEAR(low, -4 + 0.1 * (2 + 5 * copy), 1e-5);
   }
 }

@@ -31,7 +31,7 @@ std::vector<double> independentPixels(const sim::SonarOptions& o, const std::vec
   std::vector<double> samples;
   for (int bin = 20; bin < o.rangeCount - 20; bin += 10)
     for (int beam = 60; beam < o.beamCount - 60; beam += 15)
-      samples.push_back(power[static_cast<std::size_t>(bin * o.beamCount + beam)] / mean);
+      samples.push_back(power.data()[bin * o.beamCount + beam] / mean);
   return samples;
 }
 
@@ -67,9 +67,7 @@ TEST(BeamFormer, PointTarget_DrawsTheBeamPattern) {
   echo.at(300, 128) = 1;
   std::vector<float> power;
   former.form(echo, 0, power);
-  const auto at = [&](int beam) {
-    return power[static_cast<std::size_t>(300 * o.beamCount + beam)] / power[300 * 256 + 128];
-  };
+  const auto at = [&](int beam) { return power.data()[300 * o.beamCount + beam] / power[300 * 256 + 128]; };
   int wide = 128;
   while (at(wide) > 0.5f) ++wide;
   const double halfWidth = geometry.bearings_rad()[static_cast<std::size_t>(wide)] - geometry.bearings_rad()[128];
@@ -89,7 +87,7 @@ TEST(BeamFormer, PulseSpreadsATarget_ByItsLength) {
   echo.at(300, 128) = 1;
   std::vector<float> power;
   former.form(echo, 0, power);
-  const auto at = [&](int bin) { return power[static_cast<std::size_t>(bin * 256 + 128)] / power[300 * 256 + 128]; };
+  const auto at = [&](int bin) { return power.data()[bin * 256 + 128] / power[300 * 256 + 128]; };
   // -6 dB at half the length on both sides: 0.1 m are six bins.
   EXPECT_NEAR(10 * std::log10(at(306)), -6.02, 0.1);
   EXPECT_NEAR(at(294), at(306), 1e-6);

@@ -131,7 +131,7 @@ TEST(SurveySimulator, SpoofedGnss_DriftsAway) {
   o.gnss.noise_m = o.gnss.wander_m = 0;
   const auto lastFix = [](const Result& r) {
     for (auto it = r.records.rbegin(); it != r.records.rend(); ++it)
-      if (const auto gps = std::dynamic_pointer_cast<mrpt::obs::CObservationGPS>(*it)) return gps;
+      if (auto gps = std::dynamic_pointer_cast<mrpt::obs::CObservationGPS>(*it)) return gps;
     return mrpt::obs::CObservationGPS::Ptr();
   };
   const auto honest = lastFix(simulate(o))->getMsgByClass<mrpt::obs::gnss::Message_NMEA_GGA>();

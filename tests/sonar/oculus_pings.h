@@ -30,7 +30,7 @@ inline std::vector<obs::CObservationImagingSonar> readOculusPings(const std::str
     const std::size_t image = begin + at(begin + 110, std::uint32_t{});
     ping.samples.assign(bytes.begin() + static_cast<std::ptrdiff_t>(image),
                         bytes.begin() + static_cast<std::ptrdiff_t>(image) +
-                            static_cast<std::ptrdiff_t>(ping.rangeCount * ping.beamCount));
+                            static_cast<std::ptrdiff_t>(ping.rangeCount) * static_cast<std::ptrdiff_t>(ping.beamCount));
     for (std::size_t i = 0; i < ping.beamCount; ++i)
       ping.bearings_rad.push_back(static_cast<float>(-0.01 * M_PI / 180 * at(begin + 122 + 2 * i, std::int16_t{})));
     ping.verticalAperture_rad = 20 * M_PI / 180;

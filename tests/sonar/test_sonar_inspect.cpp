@@ -23,7 +23,7 @@ int runInspect(const std::string& arguments) {
 
 /// Two pings of each sonar asked for.
 std::string writeLog(const TempFolder& folder, bool horizontal, bool vertical) {
-  const std::string path = folder.file("survey.rawlog");
+  std::string path = folder.file("survey.rawlog");
   const test::TwinSonars twins;
   const auto seabed = test::levelSeabed(3.0);
   obs::RawlogWriter writer(path);
