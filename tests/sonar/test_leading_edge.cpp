@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "s2s/sonar/leading_edge.h"
@@ -173,6 +174,90 @@ TEST(LeadingEdge, RidgeBehindTheBed_IsAReturn) {
   EXPECT_EQ(found, 20);
   // Speckle alone exceeds twice its mean over seven independent cells with a probability of 1e-4 a cell at the most.
   EXPECT_LE(others, 2);
+}
+
+constexpr double kWall_m = 4.5;
+constexpr double kWallBegins_rad = 50 * test::kDeg;
+
+/// A wall at y = 4.5 m behind a dim bed, visible from 50 degrees outwards, by beams that see 1.5 degrees to either
+/// side.
+cv::Mat wallSeenByWideBeams(const PingGeometry& geometry, unsigned seed) {
+  cv::Mat image = speckledBed(geometry, 90, 3.0, seed);
+  for (int beam = 0; beam < image.cols; ++beam)
+    for (int side = -15; side <= 15; ++side) {
+      const double bearing_rad = geometry.bearings_rad[static_cast<std::size_t>(beam)] + 0.1 * side * test::kDeg;
+      if (bearing_rad < kWallBegins_rad) continue;
+      const int bin = static_cast<int>(std::lround(geometry.binAt(kWall_m / std::sin(bearing_rad))));
+      image.col(beam).rowRange(bin - 1, bin + 2).setTo(255);
+    }
+  return image;
+}
+
+TEST(LeadingEdge, WallSeenByWideBeams_RidgesLieOnItAlsoWhereItBegins) {
+  const auto geometry = fineGeometry();
+  const cv::Mat image = wallSeenByWideBeams(geometry, 8);
+  LeadingEdgeOptions options;
+  options.ridges = true;
+  const auto errorsWhereItBegins = [&](const LineScan& scan) {
+    std::vector<double> errors;
+    for (const auto& r : scan.returns)
+      if (r.isRidge && r.bearing_rad > kWallBegins_rad && r.bearing_rad < kWallBegins_rad + 2 * test::kDeg)
+        errors.push_back(r.range_m - kWall_m / std::sin(r.bearing_rad));
+    return errors;
+  };
+  const auto each = errorsWhereItBegins(findLeadingEdge(image, geometry, options));
+  options.ridgeWindow_rad = 3 * test::kDeg;
+  const auto scan = findLeadingEdge(image, geometry, options);
+  const auto together = errorsWhereItBegins(scan);
+  ASSERT_GE(each.size(), 3u);
+  ASSERT_GE(together.size(), 3u);
+  // A beam at the wall's begin sees it only on one side, 0.75 deg off in the mean: 6 cm nearer, or the test shows
+  // nothing.
+  EXPECT_LT(*std::min_element(each.begin(), each.end()), -0.03);
+  // A run's centre is known to a quarter of a degree, 2 cm in range, and some ten of them make the line.
+  for (const double error : together) EXPECT_LT(std::abs(error), 0.015);
+  for (const auto& r : scan.returns)
+    if (r.isRidge && r.bearing_rad > kWallBegins_rad) {
+      EXPECT_LT(std::abs(r.range_m - kWall_m / std::sin(r.bearing_rad)), 3 * r.rangeSigma_m);
+    }
+}
+
+TEST(LeadingEdge, WallThatFacesTheSonar_IsMetAtItsDistance) {
+  const auto geometry = fineGeometry();
+  cv::Mat image = speckledBed(geometry, 90, 3.0, 9);
+  std::mt19937 random(10);
+  std::normal_distribution<double> noise(0, 1.5);  // bins, by speckle
+  for (int beam = 80; beam < 176; ++beam) {
+    const double wall_m = 4.5 / std::cos(geometry.bearings_rad[static_cast<std::size_t>(beam)]);
+    const int bin = static_cast<int>(std::lround(geometry.binAt(wall_m) + noise(random)));
+    image.col(beam).rowRange(bin - 4, bin + 5).setTo(255);
+  }
+  LeadingEdgeOptions options;
+  options.ridges = true;
+  options.ridgeWindow_rad = 3 * test::kDeg;
+  std::size_t found = 0;
+  for (const auto& r : findLeadingEdge(image, geometry, options).returns) {
+    if (!r.isRidge) continue;
+    ++found;
+    // A dozen beams, each off by 1.5 bins of 1.25 cm: 0.5 cm, and 1 cm at the ends where all lie on one side.
+    EXPECT_NEAR(r.range_m * std::cos(r.bearing_rad), 4.5, 0.025) << r.beam;
+  }
+  EXPECT_GT(found, 85u);
+}
+
+TEST(LeadingEdge, RidgeOfOneBeamAlone_IsLeftOutAsAGlint) {
+  const auto geometry = fineGeometry();
+  cv::Mat image = speckledBed(geometry, 90, 3.0, 11);
+  image.col(100).rowRange(320, 330).setTo(255);
+  LeadingEdgeOptions options;
+  options.ridges = true;
+  const auto isFound = [&](const LineScan& scan) {
+    return std::any_of(scan.returns.begin(), scan.returns.end(),
+                       [](const LineReturn& r) { return r.isRidge && r.beam == 100; });
+  };
+  EXPECT_TRUE(isFound(findLeadingEdge(image, geometry, options)));
+  options.ridgeWindow_rad = 3 * test::kDeg;
+  EXPECT_FALSE(isFound(findLeadingEdge(image, geometry, options)));
 }
 
 TEST(LeadingEdge, BrightBed_HasNoRidge) {

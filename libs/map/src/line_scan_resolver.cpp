@@ -82,6 +82,44 @@ Decision contact(const Arc& arc, const std::vector<Gap>& gaps, std::size_t least
   return decision;
 }
 
+/// Where a ridge lies on a wall, whose range is that of the middle of all that its beam sees of the wall: where the gap
+/// is the mean of the known ones. Of two such places it is the one nearer to the middle of the known arc.
+std::optional<Decision> middleContact(const Arc& arc, const std::vector<Gap>& gaps, double relief_m) {
+  double count = 0, distance_m = 0, sigma_m = 0, middle_rad = 0;
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    if (!gaps[i].known) continue;
+    // Each place speaks for half a step at either side; at the arc's ends one of these is outside the aperture.
+    const double weight = i == 0 || i + 1 == gaps.size() ? 0.5 : 1.0;
+    count += weight;
+    distance_m += weight * gaps[i].distance_m;
+    sigma_m += weight * gaps[i].sigma_m;
+    middle_rad += weight * arc.elevation_rad[i];
+  }
+  if (count == 0) return std::nullopt;
+  distance_m /= count;
+  middle_rad /= count;
+  Decision decision;
+  decision.offSurface_m = relief_m;
+  decision.misfit = std::abs(distance_m) / (sigma_m / count);
+  double nearest_rad = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    if (!gaps[i].known) continue;
+    double place_rad = arc.elevation_rad[i];
+    const double here = gaps[i].distance_m - distance_m;
+    if (i + 1 < gaps.size() && gaps[i + 1].known) {
+      const double next = gaps[i + 1].distance_m - distance_m;
+      if (here * next > 0) continue;
+      if (here != next) place_rad += here / (here - next) * (arc.elevation_rad[i + 1] - arc.elevation_rad[i]);
+    } else if (i > 0 && gaps[i - 1].known) {
+      continue;
+    }
+    if (std::abs(place_rad - middle_rad) >= nearest_rad) continue;
+    nearest_rad = std::abs(place_rad - middle_rad);
+    decision.elevation_rad = place_rad;
+  }
+  return decision;
+}
+
 /// Where the arc comes out of the surface above `least`, or below it: the crossing nearest to it.
 std::optional<Decision> crossing(const Arc& arc, const std::vector<Gap>& gaps, std::size_t least) {
   const auto meet = [&](std::size_t inside, std::size_t outside) {
@@ -169,7 +207,7 @@ class PingResolver {
     for (std::size_t i = 0; i < arc_.p_map.size(); ++i) arc_.p_map[i] = placeOf(r, arc_.elevation_rad[i]);
     const double rangeSigma_m = decodeSigma(r.rangeSigmaCode);
     if (r.order > 0) {
-      const auto wall = meetWall(rangeSigma_m);
+      const auto wall = r.isRidge ? meetWallInTheMiddle(rangeSigma_m) : meetWall(rangeSigma_m);
       return wall ? *wall : between(arc_.elevation_rad.front(), arc_.elevation_rad.back(), 0, r.range_m);
     }
     const std::optional<Decision> seabed = meetSeabed(rangeSigma_m);
@@ -274,7 +312,9 @@ class PingResolver {
 
   std::optional<Decision> meetWall(double rangeSigma_m) {
     if (evidence_.walls.wallCount() == 0) return std::nullopt;
-    for (std::size_t i = 0; i < arc_.p_map.size(); ++i) wallGaps_[i] = wallGap(arc_.p_map[i], rangeSigma_m);
+    const double below_m = options_.surfaceRoughness_m;
+    for (std::size_t i = 0; i < arc_.p_map.size(); ++i)
+      wallGaps_[i] = wallGap(arc_.p_map[i], rangeSigma_m, options_.gate, below_m);
     const auto least = leastGap(wallGaps_);
     if (!least) return std::nullopt;
     // An arc that goes through the wall proves that there is none at that depth, so there is no crossing here.
@@ -284,13 +324,24 @@ class PingResolver {
     return decision;
   }
 
-  Gap wallGap(const Eigen::Vector3d& p, double rangeSigma_m) {
+  /// The same for the ridge of a wall behind the seabed.
+  std::optional<Decision> meetWallInTheMiddle(double rangeSigma_m) {
+    if (evidence_.walls.wallCount() == 0) return std::nullopt;
+    for (std::size_t i = 0; i < arc_.p_map.size(); ++i) wallGaps_[i] = wallGap(arc_.p_map[i], rangeSigma_m, 0, 0);
+    auto decision = middleContact(arc_, wallGaps_, std::hypot(options_.relief_m, wallSigma_m_));
+    if (!decision || decision->misfit > options_.gate) return std::nullopt;
+    decision->source = ElevationSource::Wall;
+    return decision;
+  }
+
+  /// @param seabedSigmas, below_m  how far below the known seabed the wall may still be met
+  Gap wallGap(const Eigen::Vector3d& p, double rangeSigma_m, double seabedSigmas, double below_m) {
     const auto wall = evidence_.walls.wallNear(p.x(), p.y());
     Gap gap;
     // Walls go on below what was seen of them, not above, and end at the seabed.
     if (!wall || p.z() > wall->top_m + options_.wallCell_m) return gap;
     const double side = wall->normal.dot(T_map_sonar_.translation().head<2>()) < wall->offset_m ? -1 : 1;
-    if (isBelowSeabed(p, side * wall->normal)) return gap;
+    if (isBelowSeabed(p, side * wall->normal, seabedSigmas, below_m)) return gap;
     gap.known = true;
     gap.distance_m = side * (wall->normal.dot(p.head<2>()) - wall->offset_m);
     gap.sigma_m = gapSigma(wall->sigma_m, rangeSigma_m);
@@ -299,12 +350,12 @@ class PingResolver {
   }
 
   /// Below the nearest known seabed in front of a wall's face.
-  bool isBelowSeabed(const Eigen::Vector3d& p, const Eigen::Vector2d& outward) const {
+  bool isBelowSeabed(const Eigen::Vector3d& p, const Eigen::Vector2d& outward, double sigmas, double below_m) const {
     const double step_m = 2 * options_.cell_m;
     for (int i = 0; i * step_m <= kFootReach_m; ++i) {
       const Eigen::Vector2d at = p.head<2>() + i * step_m * outward;
       if (const auto seabed = evidence_.own.seabedAt(at.x(), at.y()))
-        return p.z() < seabed->height_m - options_.gate * seabed->sigma_m - options_.surfaceRoughness_m;
+        return p.z() < seabed->height_m - sigmas * seabed->sigma_m - below_m;
     }
     return false;
   }

@@ -3,6 +3,7 @@
 
 #include <mrpt/serialization/CArchive.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -26,6 +27,9 @@ std::uint32_t readCount(CArchive& in, const char* what) {
   if (count > kMaxCount) throw std::runtime_error(std::string(what) + ": claims " + std::to_string(count) + " entries");
   return count;
 }
+
+/// Beside a return's order: set if it is a ridge. Streams from before there was such a mark have it clear.
+constexpr std::uint8_t kRidgeMark = 0x80, kOrderMask = 0x0f;
 
 /// The upper three rows of the matrix, row by row.
 void writePose(CArchive& out, const core::Isometry& T) {
@@ -110,7 +114,9 @@ void writeLineScan(CArchive& out, const StoredLineScan& scan) {
                             [](const PackedReturn& r) { return static_cast<std::uint8_t>(r.source); });
   writeColumn<std::uint8_t>(out, scan.returns, [](const PackedReturn& r) { return r.sigmaCode; });
   writeColumn<std::uint8_t>(out, scan.returns, [](const PackedReturn& r) { return r.intervalCode; });
-  writeColumn<std::uint8_t>(out, scan.returns, [](const PackedReturn& r) { return r.order; });
+  writeColumn<std::uint8_t>(out, scan.returns, [](const PackedReturn& r) {
+    return static_cast<std::uint8_t>(r.order | (r.isRidge ? kRidgeMark : 0));
+  });
 }
 
 StoredLineScan readLineScan(CArchive& in, std::uint8_t version) {
@@ -137,7 +143,10 @@ StoredLineScan readLineScan(CArchive& in, std::uint8_t version) {
   readColumn<std::uint8_t>(in, scan.returns, [](PackedReturn& r, std::uint8_t v) { r.sigmaCode = v; });
   if (version == 0) return scan;
   readColumn<std::uint8_t>(in, scan.returns, [](PackedReturn& r, std::uint8_t v) { r.intervalCode = v; });
-  readColumn<std::uint8_t>(in, scan.returns, [](PackedReturn& r, std::uint8_t v) { r.order = v & 15u; });
+  readColumn<std::uint8_t>(in, scan.returns, [](PackedReturn& r, std::uint8_t v) {
+    r.order = std::min<std::uint8_t>(v & kOrderMask, kMaxOrder) & kMaxOrder;
+    r.isRidge = (v & kRidgeMark) != 0 ? 1 : 0;
+  });
   return scan;
 }
 

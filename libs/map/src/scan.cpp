@@ -58,7 +58,8 @@ StoredLineScan toStored(const ScanPose& pose, const LineScan& scan) {
     packed.bearing_rad = r.bearing_rad;
     packed.intensityHalf = toHalf(r.intensity);
     packed.rangeSigmaCode = encodeSigma(r.sigma_m);
-    packed.order = std::min(r.order, kMaxOrder);
+    packed.order = std::min(r.order, kMaxOrder) & kMaxOrder;
+    packed.isRidge = r.isRidge ? 1 : 0;
     stored.returns.push_back(packed);
   }
   return stored;

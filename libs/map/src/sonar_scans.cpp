@@ -21,7 +21,7 @@ LineScan toMapLineScan(const sonar::LineScan& leadingEdge, const core::Isometry&
   scan.returns.reserve(leadingEdge.returns.size());
   for (const sonar::LineReturn& r : leadingEdge.returns)
     scan.returns.push_back({static_cast<float>(r.range_m), static_cast<float>(r.bearing_rad), r.intensity,
-                            static_cast<float>(r.rangeSigma_m), std::min<std::uint8_t>(r.order, kMaxOrder)});
+                            static_cast<float>(r.rangeSigma_m), std::min<std::uint8_t>(r.order, kMaxOrder), r.isRidge});
   return scan;
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,6 +14,8 @@ namespace {
 constexpr float kMinSeabedPoints = 3;
 /// And this share of the points of the fullest slab: late echoes, which are put too low, go on coming as pings do.
 constexpr float kMinSeabedShare = 0.2f;
+/// Cosine of the angle between cells of one wall: 15 degrees.
+constexpr double kSameWallCosine = 0.966;
 /// A slab of a wall cell needs this many before its shape says anything; it is looked at again after as many more.
 constexpr int kMinSlabPoints = 4;
 
@@ -167,19 +170,38 @@ std::optional<SurfaceEvidence::Seabed> SurfaceEvidence::seabedAt(double x_m, dou
 std::optional<SurfaceEvidence::Wall> SurfaceEvidence::wallNear(double x_m, double y_m) const {
   if (wallCount_ == 0) return std::nullopt;
   const std::int32_t ix = walls_.index(x_m), iy = walls_.index(y_m);
+  const Eigen::Vector2d place_m(x_m, y_m);
   SparseGrid<WallCell>::Hint hint;
-  std::optional<Wall> nearest;
-  double nearest_m = std::numeric_limits<double>::max();
+  std::array<const Wall*, 9> around{};
+  std::size_t count = 0;
+  const Wall* nearest = nullptr;
+  const auto distance = [&](const Wall& wall) { return wall.normal.dot(place_m) - wall.offset_m; };
   for (int dx = -1; dx <= 1; ++dx)
     for (int dy = -1; dy <= 1; ++dy) {
       const WallCell* cell = walls_.find(ix + dx, iy + dy, hint);
       if (!cell || !cell->isWall) continue;
-      const double distance_m = std::abs(cell->wall.normal.dot(Eigen::Vector2d(x_m, y_m)) - cell->wall.offset_m);
-      if (distance_m >= nearest_m) continue;
-      nearest_m = distance_m;
-      nearest = cell->wall;
+      around[count++] = &cell->wall;
+      if (!nearest || std::abs(distance(cell->wall)) < std::abs(distance(*nearest))) nearest = &cell->wall;
     }
-  return nearest;
+  if (!nearest) return std::nullopt;
+  // One cell's plane is uncertain, and the nearest of several is near by chance as well: the mean of those that agree.
+  Eigen::Vector2d normal = Eigen::Vector2d::Zero();
+  double sum_m = 0, top_m = nearest->top_m, agreeing = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double cosine = around[i]->normal.dot(nearest->normal), sign = cosine < 0 ? -1 : 1;
+    const double there_m = sign * distance(*around[i]);
+    if (std::abs(cosine) < kSameWallCosine || std::abs(there_m - distance(*nearest)) > options_.wallMaxThickness_m)
+      continue;
+    normal += sign * around[i]->normal;
+    sum_m += there_m;
+    top_m = std::max(top_m, around[i]->top_m);
+    agreeing += 1;
+  }
+  Wall wall = *nearest;
+  wall.normal = normal.normalized();
+  wall.offset_m = wall.normal.dot(place_m) - sum_m / agreeing;
+  wall.top_m = top_m;
+  return wall;
 }
 
 }  // namespace s2s::map

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <opencv2/core.hpp>
-
 #include "s2s/sonar/leading_edge.h"
 
 namespace s2s::sonar {
@@ -14,11 +12,5 @@ namespace s2s::sonar {
 /// (Q50 - Q25) / ln 1.5 and the edge itself, Q25 - ln(4/3) times that. The delay's mean also is what the range is
 /// uncertain by. Returns that stand apart, and earlier ones, which are another surface, stay as they are.
 void correctSpeckleDelay(double window_rad, LineScan& scan);
-
-/// Adds the brightest ridge behind each beam's first return, and numbers the returns of each beam anew.
-///
-/// Its range is that of its middle: a beam is wide enough for its flanks to see a strong, inclined surface both nearer
-/// and farther, so that its leading edge is early.
-void addRidges(const cv::Mat& image, const PingGeometry& geometry, const LeadingEdgeOptions& options, LineScan& scan);
 
 }  // namespace s2s::sonar

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "edge_refinement.h"
+#include "ridges.h"
 
 namespace s2s::sonar {
 

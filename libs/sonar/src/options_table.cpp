@@ -96,6 +96,9 @@ core::OptionTable optionTable(LeadingEdgeOptions& o) {
   table.add("ridge_level", o.ridgeLevel, "intensity (of 255) that a ridge exceeds in the mean", {0, 255});
   table.add("ridge_contrast", o.ridgeContrast, "and how many times the mean echo in front of it", core::atLeast(1));
   table.add("ridge_length_m", o.ridgeLength_m, "length over which a ridge's mean is taken", core::positive());
+  table.addDegrees("ridge_window_deg", o.ridgeWindow_rad,
+                   "ridges within this angle of a beam make a straight line, which gives its range; 0: each by itself",
+                   {0, 20});
   return table;
 }
 

@@ -8,6 +8,7 @@ DeviceOptions horizontalDefaults() {
   // dim and mostly speckle, and the wall's stands behind it.
   options.leadingEdge.speckleWindow_rad = 2.0 * M_PI / 180.0;
   options.leadingEdge.ridges = true;
+  options.leadingEdge.ridgeWindow_rad = 2.5 * M_PI / 180.0;
   return options;
 }
 

@@ -19,7 +19,7 @@ struct ScanPoint {
   float sigma_m = 0;                                    ///< standard deviation of the position (largest axis)
 };
 
-constexpr std::uint8_t kMaxOrder = 15;
+constexpr std::uint8_t kMaxOrder = 7;
 
 /// A return of one beam: the surface lies somewhere on the arc of this range and bearing.
 struct LineReturn {
@@ -27,7 +27,8 @@ struct LineReturn {
   float bearing_rad = 0;
   float intensity = 0;
   float sigma_m = 0;       ///< standard deviation of the range
-  std::uint8_t order = 0;  ///< 0: the first of its beam, all in front of it is free; 1 ... 15: a surface behind
+  std::uint8_t order = 0;  ///< 0: the first of its beam, all in front of it is free; 1 ... 7: a surface behind
+  bool isRidge = false;    ///< the range is that of the middle of what the beam sees of a surface, not of the nearest
 };
 
 /// The leading edge of one ping.
@@ -69,9 +70,10 @@ struct PackedReturn {
   std::uint8_t sigmaCode = 0;       ///< of the point
   std::uint8_t intervalCode = 0;    ///< length of the part of the arc that an ambiguous return lies on
   ElevationSource source : 4;
-  std::uint8_t order : 4;  ///< of its beam, see LineReturn
+  std::uint8_t order : 3;    ///< of its beam, see LineReturn
+  std::uint8_t isRidge : 1;  ///< likewise
 
-  PackedReturn() : source(ElevationSource::Zero), order(0) {}
+  PackedReturn() : source(ElevationSource::Zero), order(0), isRidge(0) {}
   bool isAmbiguous() const { return source == ElevationSource::Ambiguous; }
   /// A return behind the first that no known surface explains is most likely none; it is kept, since the surface may
   /// become known, but it is no point of the map.

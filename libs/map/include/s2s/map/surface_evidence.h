@@ -35,7 +35,8 @@ class SurfaceEvidence {
 
   /// The seabed at a place, mixed bilinearly from the cells around that know it.
   std::optional<Seabed> seabedAt(double x_m, double y_m) const;
-  /// The nearest wall that passes through the cell of this place or one of its neighbours.
+  /// The nearest wall that passes through the cell of this place or one of its neighbours: the mean of those cells'
+  /// planes that agree with the nearest one.
   std::optional<Wall> wallNear(double x_m, double y_m) const;
 
   std::size_t wallCount() const { return wallCount_; }

@@ -27,6 +27,9 @@ struct LeadingEdgeOptions {
   double ridgeLevel = 200;       ///< of 255: mean intensity that a ridge exceeds
   double ridgeContrast = 2;      ///< and how many times that of the echo in front of it
   double ridgeLength_m = 0.085;  ///< length over which that mean is taken; nothing shorter is a ridge
+  /// A ridge's range is that of the straight line through all ridges within this angle of its beam, and one that lies
+  /// on none is left out. 0 takes each beam's by itself.
+  double ridgeWindow_rad = 0;
 };
 
 /// One leading edge of a beam.
@@ -38,7 +41,7 @@ struct LineReturn {
   double rangeSigma_m = 0;
   float intensity = 0;     ///< preprocessed echo strength, 0..255
   std::uint8_t order = 0;  ///< 0 for the first return of its beam, 1 for the surface behind it, ...
-  bool isRidge = false;    ///< its range is that of the ridge's middle
+  bool isRidge = false;    ///< its range is that of the surface's middle, not of its nearest place
 };
 
 /// Points of an arc, in the sonar's frame, from the lower to the upper edge of the aperture.
