@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ping_motion.h"
 #include "s2s/core/error.h"
 
 namespace s2s::calib {
 
 namespace {
 
-constexpr double kStep_s = 0.01;        // for velocities
-constexpr double kMaxPoseGap_s = 0.5;   // of the trajectory
-constexpr double kMaxRate_radps = 2;    // faster than this no vessel moves: the trajectory jumps there, ...
-constexpr double kMaxSpeed_mps = 20;    // ... and its derivative would tell times that are not true
-constexpr double kFirstSigma_m = 0.1;   // of ranges, before anything is known
-constexpr double kLeastSigma_m = 0.02;  // no echo is better than a resolution cell
+constexpr double kFirstSigma_m = 0.1;           // of ranges, before anything is known
+constexpr double kLeastSigma_m = 0.02;          // no echo is better than a resolution cell
+constexpr double kLeastTextureSigma_m = 0.004;  // a tenth of a pixel
+constexpr double kNormOfTwo = 1.75;             // median length of a vector of two normal components, over that of one
 constexpr double kLeastSlope = 0.15;  // metres of height per metre of range: echoes that graze the seabed count little
 constexpr std::size_t kMinEchoes = 500;
 constexpr double kWallReach_m = 0.6;  // an echo this near to a wall may be of it
@@ -24,20 +23,6 @@ constexpr int kContactSteps = 16;     // elevations at which the nearest part of
 constexpr double kInside = 0.85;      // share of the aperture inside which its edge plays no part
 
 std::size_t at(EvidenceKind kind) { return static_cast<std::size_t>(kind); }
-
-std::optional<PingMotion> motionAt(const core::Trajectory& T_map_vehicle, core::TimeNs time, double correction_s) {
-  const auto T = T_map_vehicle.at(time, kMaxPoseGap_s);
-  const auto before = T_map_vehicle.at(time - core::durationNs(kStep_s), kMaxPoseGap_s);
-  const auto after = T_map_vehicle.at(time + core::durationNs(kStep_s), kMaxPoseGap_s);
-  if (!T || !before || !after) return {};
-  PingMotion motion;
-  motion.T_map_vehicle = *T;
-  motion.velocity_mps = T->linear().transpose() * (after->translation() - before->translation()) / (2 * kStep_s);
-  motion.rate_radps = core::logSo3(before->linear().transpose() * after->linear()) / (2 * kStep_s);
-  motion.timeOffset_s = correction_s;
-  if (motion.rate_radps.norm() > kMaxRate_radps || motion.velocity_mps.norm() > kMaxSpeed_mps) return {};
-  return motion;
-}
 
 double median(std::vector<double>& values) {
   if (values.empty()) return 0;
@@ -85,7 +70,7 @@ bool touches(Echo& echo, const Depth& depth) {
 }  // namespace
 
 Association::Association(const CalibrationEvidence& evidence, const CalibrationOptions& options)
-    : evidence_(evidence), options_(options) {
+    : evidence_(evidence), options_(options), texture_(evidence, options) {
   std::size_t total = 0;
   for (const auto& ping : evidence_.pings) total += ping.echoes.size();
   stride_ = 1 + total / static_cast<std::size_t>(std::max(1, options_.maxEchoes));
@@ -101,6 +86,7 @@ void Association::update(const CalibrationState& state, SeabedGrid& grid, const 
   leftOut_.fill(0);
   for (auto& spread : spreads_) spread.clear();
   associateEchoes(grid, gates.echo_m);
+  if (gates.texture_m > 0 && options_.texture.enabled) findTexture(state, grid, gates.texture_m);
   rescale();
   if (gates.mirror) findDepth(state);
   if (used_.echoes.size() < kMinEchoes)
@@ -118,8 +104,7 @@ CalibrationStatistics Association::statistics() const {
 }
 
 const PingMotion* Association::motionOf(core::TimeNs recorded, const SonarState& sonar) {
-  const auto motion = motionAt(evidence_.T_map_vehicle, recorded - core::durationNs(sonar.correctedTimeOffset_s()),
-                               sonar.correction[kTime]);
+  const auto motion = pingMotionAt(evidence_.T_map_vehicle, recorded, sonar);
   if (!motion) return nullptr;
   motions_.push_back(std::make_unique<PingMotion>(*motion));
   return motions_.back().get();
@@ -251,15 +236,29 @@ void Association::findDepth(const CalibrationState& state) {
   if (depth_) used_.verticalZ_m = sonar.correction[kZ] + depth_->higher_m;
 }
 
+void Association::findTexture(const CalibrationState& state, SeabedGrid& grid, double reach_m) {
+  texture_.update(state, grid, reach_m);
+  used_.texture = texture_.used();
+  counts_[at(EvidenceKind::Texture)] = used_.texture.size();
+  leftOut_[at(EvidenceKind::Texture)] = texture_.leftOut();
+  for (UsedTexture& used : used_.texture) {
+    spreads_[at(EvidenceKind::Texture)].push_back(used.apart_m / kNormOfTwo);
+    used.residual.weight_perM = 1 / sigma_[at(EvidenceKind::Texture)];
+  }
+}
+
 /// Weights by the spread that the evidence has around its surfaces now.
 void Association::rescale() {
   std::array<double, kEvidenceKinds> factor{};
   for (std::size_t kind = 0; kind < kEvidenceKinds; ++kind) {
     const double old = sigma_[kind];
-    if (!spreads_[kind].empty()) sigma_[kind] = std::max(kLeastSigma_m, 1.4826 * median(spreads_[kind]));
+    if (!spreads_[kind].empty())
+      sigma_[kind] = std::max(kind == at(EvidenceKind::Texture) ? kLeastTextureSigma_m : kLeastSigma_m,
+                              1.4826 * median(spreads_[kind]));
     factor[kind] = old / sigma_[kind];
   }
   for (UsedEcho& used : used_.echoes) used.weight_perM *= factor[at(used.kind)];
+  for (UsedTexture& used : used_.texture) used.residual.weight_perM *= factor[at(EvidenceKind::Texture)];
 }
 
 }  // namespace s2s::calib

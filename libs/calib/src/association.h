@@ -10,8 +10,9 @@ namespace s2s::calib {
 
 /// How far evidence may be off in a round.
 struct RoundGates {
-  double echo_m = 1;    ///< echoes from seabed and walls
-  bool mirror = false;  ///< whether the second echoes by way of the water surface are looked for
+  double echo_m = 1;     ///< echoes from seabed and walls
+  double texture_m = 0;  ///< how far apart pictures of the bed may be; 0: they are not looked at
+  bool mirror = false;   ///< whether the second echoes by way of the water surface are looked for
 };
 
 /// Finds, by the mountings known by now, which surface each echo belongs to.
@@ -41,6 +42,7 @@ class Association {
   void associateEchoes(const SeabedGrid& grid, double gate_m);
   bool associateWithWall(PlacedEcho& placed, const SeabedGrid& grid, double gate_m);
   void findDepth(const CalibrationState& state);
+  void findTexture(const CalibrationState& state, SeabedGrid& grid, double reach_m);
   void rescale();
 
   const CalibrationEvidence& evidence_;
@@ -48,6 +50,7 @@ class Association {
   std::size_t stride_ = 1;
   std::vector<std::unique_ptr<PingMotion>> motions_;
   std::vector<PlacedEcho> echoes_;
+  TextureAssociation texture_;
   RoundEvidence used_;
   std::optional<MirrorDepth> depth_;
   std::array<double, kEvidenceKinds> sigma_{};  ///< metres

@@ -74,12 +74,25 @@ struct HeldDirection {
   }
 };
 
-SonarVector priorSigmas(const CalibrationOptions& o) {
-  return {o.positionSigma_m,       o.positionSigma_m,       o.positionSigma_m,
-          o.rotationSigma_rad,     o.rotationSigma_rad,     o.rotationSigma_rad,
-          o.timeSigma_s,           o.apertureSigma_rad,     o.apertureSigma_rad,
-          o.apertureBendSigma_rad, o.apertureBendSigma_rad, o.rangeSigma_m,
-          o.rangeScaleSigma,       o.rangeBearingSigma_m,   2 * o.rangeBearingSigma_m};
+SonarVector priorSigmas(const CalibrationOptions& o, SonarId id) {
+  // An upright plane's middle may wander along the fan as much as it may be off.
+  const double bend = id == SonarId::Vertical ? o.apertureSigma_rad : o.apertureBendSigma_rad;
+  return {o.positionSigma_m,
+          o.positionSigma_m,
+          o.positionSigma_m,
+          o.rotationSigma_rad,
+          o.rotationSigma_rad,
+          o.rotationSigma_rad,
+          o.timeSigma_s,
+          o.apertureSigma_rad,
+          o.apertureSigma_rad,
+          bend,
+          o.apertureBendSigma_rad,
+          o.rangeSigma_m,
+          o.rangeScaleSigma,
+          o.rangeBearingSigma_m,
+          2 * o.rangeBearingSigma_m,
+          o.texture.tiltSigma_mPerRad};
 }
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
@@ -103,11 +116,11 @@ CalibrationProblem::CalibrationProblem(CalibrationState& state, SeabedGrid& grid
 }
 
 void CalibrationProblem::addPriors() {
-  for (SonarState& sonar : state_.sonars)
+  for (const SonarId id : kSonars)
     for (const bool nuisances : {false, true}) {
       auto* prior = new ceres::AutoDiffCostFunction<SonarPrior, kSonarParameters + 1, kSonarParameters>(
-          new SonarPrior{priorSigmas(options_), options_.apertureAsymmetrySigma_rad, nuisances});
-      const auto block = problem_.AddResidualBlock(prior, nullptr, of(sonar));
+          new SonarPrior{priorSigmas(options_, id), options_.apertureAsymmetrySigma_rad, nuisances});
+      const auto block = problem_.AddResidualBlock(prior, nullptr, of(state_[id]));
       if (nuisances) nuisanceBlocks_.push_back(block);
     }
   problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<ScalarPrior, 1, 1>(
@@ -147,9 +160,19 @@ void CalibrationProblem::addEcho(const UsedEcho& used, double weight) {
       problem_.AddResidualBlock(cost, loss(weight), of(sonar), &state_.soundSpeed_mps, h00, h10, h01, h11));
 }
 
+void CalibrationProblem::addTexture(const UsedTexture& used, double weight) {
+  auto* cost = new ceres::AutoDiffCostFunction<TextureResidual, 2, kSonarParameters, 1, 1, 1, 1, 1>(
+      new TextureResidual(used.residual));
+  dataBlocks_.push_back(problem_.AddResidualBlock(cost, loss(weight), of(state_[SonarId::Horizontal]),
+                                                  &state_.soundSpeed_mps, used.nodes[0], used.nodes[1], used.nodes[2],
+                                                  used.nodes[3]));
+  rowTimes_.insert(rowTimes_.end(), 2, used.block);
+}
+
 void CalibrationProblem::add(const RoundEvidence& evidence) {
   std::array<double, kEvidenceKinds> counts{}, weights{};
   for (const UsedEcho& used : evidence.echoes) ++counts[static_cast<std::size_t>(used.kind)];
+  counts[static_cast<std::size_t>(EvidenceKind::Texture)] = static_cast<double>(evidence.texture.size());
   double together = 0, all = 0;
   for (std::size_t k = 0; k < kEvidenceKinds; ++k) {
     weights[k] = std::min(1.0, 1 / (counts[k] * options_.commonShare * options_.commonShare));
@@ -157,6 +180,8 @@ void CalibrationProblem::add(const RoundEvidence& evidence) {
     all += counts[k];
   }
   for (const UsedEcho& used : evidence.echoes) addEcho(used, weights[static_cast<std::size_t>(used.kind)]);
+  for (const UsedTexture& used : evidence.texture)
+    addTexture(used, weights[static_cast<std::size_t>(EvidenceKind::Texture)]);
   if (evidence.verticalZ_m) {
     dataBlocks_.push_back(
         problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<DepthResidual, 1, kSonarParameters>(

@@ -10,6 +10,7 @@
 #include "s2s/calib/options.h"
 #include "s2s/calib/seabed_grid.h"
 #include "s2s/calib/wall_residual.h"
+#include "texture_association.h"
 
 namespace s2s::calib {
 
@@ -29,6 +30,7 @@ struct UsedEcho {
 struct RoundEvidence {
   std::optional<double> verticalZ_m;  ///< correction kZ of the vertical sonar, as the water surface tells it
   std::vector<UsedEcho> echoes;
+  std::vector<UsedTexture> texture;
 };
 
 /// The least-squares problem of one round: echoes against the seabed's heights and walls, what is known
@@ -50,6 +52,7 @@ class CalibrationProblem {
 
  private:
   void addPriors();
+  void addTexture(const UsedTexture& used, double weight);
   void addEcho(const UsedEcho& used, double weight);
   ceres::LossFunction* loss(double weight) const;
   /// @param weight of the squares, as the echoes have on average

@@ -89,8 +89,8 @@ std::string reportText(const CalibrationResult& result) {
     const double before = nominalOf(result.state, v) - nominalOf(result.state, h);
     text += row(kNames[k], unitOf(kindOf(h)), before, before + x[v] - x[h], o.relative[k]);
   }
-  static const char* const kKinds[kEvidenceKinds] = {"near edges", "far edges", "upright bands", "ridges of walls",
-                                                     "bands at walls"};
+  static const char* const kKinds[kEvidenceKinds] = {"near edges",      "far edges",      "upright bands",
+                                                     "ridges of walls", "bands at walls", "texture"};
   text += "\n";
   for (std::size_t k = 0; k < kEvidenceKinds; ++k)
     text += mrpt::format("  %-14s %7zu used, %7zu left out, spread %.3f m\n", kKinds[k], result.statistics.used[k],

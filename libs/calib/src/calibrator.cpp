@@ -7,8 +7,9 @@ namespace s2s::calib {
 
 namespace {
 
-constexpr int kMirrorRound = 2;  // the sonar's pitch has to be roughly known first
-constexpr int kIterations = 5;   // within a round; the next one starts from there
+constexpr int kMirrorRound = 2;   // the sonar's pitch has to be roughly known first
+constexpr int kTextureRound = 1;  // the bed has to be roughly known first
+constexpr int kIterations = 5;    // within a round; the next one starts from there
 
 /// The rounds of association and estimation.
 class Rounds {
@@ -55,6 +56,9 @@ RoundGates gatesOf(int round, const CalibrationOptions& options) {
   const double share = options.rounds > 1 ? static_cast<double>(round) / (options.rounds - 1) : 1;
   RoundGates gates;
   gates.echo_m = options.firstGate_m + share * (options.lastGate_m - options.firstGate_m);
+  if (round >= kTextureRound)
+    gates.texture_m =
+        options.texture.firstReach_m + share * (options.texture.lastReach_m - options.texture.firstReach_m);
   gates.mirror = round >= kMirrorRound;
   return gates;
 }
@@ -71,7 +75,7 @@ CalibrationResult calibrate(const CalibrationState& nominal, const CalibrationEv
   const auto tell = [&] {
     if (onRound) onRound(++done, total);
   };
-  rounds.seabedOnly({options.firstGate_m, false});
+  rounds.seabedOnly({options.firstGate_m, 0, false});
   tell();
   for (int k = 0; k < options.rounds; ++k) {
     rounds.round(gatesOf(k, options), {});

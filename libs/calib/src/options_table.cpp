@@ -58,6 +58,34 @@ core::OptionTable optionTable(WaterMirrorOptions& o) {
   return table;
 }
 
+core::OptionTable optionTable(TextureOptions& o) {
+  core::OptionTable table;
+  table.add("enabled", o.enabled,
+            "The bed's texture in pings from different places tells the horizontal sonar's mounting");
+  table.add("min_range_m", o.minRange_m, "Nearer bins hold the ring-down", {0, 1000});
+  table.add("band_level", o.bandLevel, "Share of a beam's strongest mean echo at which its band ends", {0.05, 1});
+  table.add("mean_reach_m", o.meanReach_m, "A sample is held against the mean of so much range either way",
+            core::positive());
+  table.addDegrees("mean_reach_deg", o.meanReach_rad, "The same in bearing", {0.1, 45});
+  table.add("aperture_share", o.apertureShare, "Elevations beyond this share of half the aperture are not used",
+            {0.05, 1});
+  table.add("group_s", o.group_s, "Pings of such a time are averaged into a picture of the bed", {0.01, 10});
+  table.add("pixel_m", o.pixel_m, "Pixel of these pictures", {0.005, 1});
+  table.add("tile_m", o.tile_m, "Side of the squares that are found again", {0.1, 20});
+  table.add("fine_blur_m", o.fineBlur_m, "Finer texture is blurred", core::positive());
+  table.add("coarse_blur_m", o.coarseBlur_m, "Coarser texture is taken off", core::positive());
+  table.add("min_overlap", o.minOverlap, "Least share of a square that both pictures show", {0.05, 1});
+  table.add("pairs_per_tile", o.pairsPerTile, "So many pairs of pictures of a square are compared", {1, 10000});
+  table.add("min_gap_s", o.minGap_s, "Time between two pictures of a pair", {0, 1e4});
+  table.add("min_correlation", o.minCorrelation, "Least correlation at the peak", {0, 1});
+  table.add("min_distinctness", o.minDistinctness, "Least ratio of the peak to the next best one", {1, 100});
+  table.add("tilt_sigma_m_per_rad", o.tiltSigma_mPerRad, "How much higher the bed may seem, growing with elevation",
+            core::positive());
+  table.add("first_reach_m", o.firstReach_m, "Displacements up to this are looked for, first round", {0.02, 5});
+  table.add("last_reach_m", o.lastReach_m, "The same, last round", {0.02, 5});
+  return table;
+}
+
 core::OptionTable optionTable(SwathOptions& o) {
   core::OptionTable table;
   table.add("beam_step", o.beamStep, "One beam in so many is looked at", {1, 1000});

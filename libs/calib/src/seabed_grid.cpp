@@ -83,6 +83,11 @@ std::array<double*, 4> SeabedGrid::corners(const Index& cell) {
   return {node(cell.x, cell.y), node(cell.x + 1, cell.y), node(cell.x, cell.y + 1), node(cell.x + 1, cell.y + 1)};
 }
 
+double* SeabedGrid::nearestNode(double x_m, double y_m) {
+  return node(static_cast<std::int32_t>(std::lround(x_m / cell_m_)),
+              static_cast<std::int32_t>(std::lround(y_m / cell_m_)));
+}
+
 std::vector<std::array<double*, 3>> SeabedGrid::triples() {
   std::vector<std::array<double*, 3>> runs;
   for (std::size_t n = 0; n < heights_.size(); ++n) {

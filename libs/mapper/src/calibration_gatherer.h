@@ -49,6 +49,7 @@ class CalibrationGatherer {
   calib::CalibrationState nominal_;
   std::map<calib::SonarId, bool> described_;
   std::vector<calib::PingEchoes> pings_;
+  std::vector<calib::TexturePing> texture_;
   std::vector<calib::MirrorTrace> mirror_;
 };
 

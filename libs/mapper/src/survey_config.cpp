@@ -26,6 +26,7 @@ Sections sectionsOf(SurveyConfig& config) {
                        {"products", products::optionTable(config.products)},
                        {"calibration", calib::optionTable(config.calibration)},
                        {"calibration.mirror", calib::optionTable(config.calibration.mirror)},
+                       {"calibration.texture", calib::optionTable(config.calibration.texture)},
                        {"calibration.swath", calib::optionTable(config.swath)}};
   for (auto& section : graph::optionSections(config.graph)) sections.push_back(std::move(section));
   return sections;

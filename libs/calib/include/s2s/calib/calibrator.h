@@ -17,8 +17,9 @@ enum class EvidenceKind : std::uint8_t {
   Middle = 2,    ///< band of the vertical sonar on the seabed
   WallEdge = 3,  ///< echo of the horizontal sonar on a wall
   WallBand = 4,  ///< band of the vertical sonar on a wall
+  Texture = 5,   ///< two pictures of the bed by the horizontal sonar
 };
-constexpr std::size_t kEvidenceKinds = 5;
+constexpr std::size_t kEvidenceKinds = 6;
 
 /// What was used and how well it fits.
 struct CalibrationStatistics {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "s2s/calib/echo_table.h"
+#include "s2s/calib/texture.h"
 #include "s2s/calib/water_mirror.h"
 #include "s2s/core/trajectory.h"
 
@@ -24,6 +25,7 @@ using WallFinder = std::function<std::optional<WallPlane>(double x_m, double y_m
 struct CalibrationEvidence {
   core::Trajectory T_map_vehicle;  ///< z up
   std::vector<PingEchoes> pings;
+  std::vector<TexturePing> texture;     ///< of the horizontal sonar; may be empty
   std::vector<MirrorTrace> mirror;      ///< of the vertical sonar; may be empty
   std::optional<double> waterHeight_m;  ///< of the surface in the map, as the floating hull tells it
   WallFinder wallAt;                    ///< walls that the LiDAR saw, gone on below the water; may be none

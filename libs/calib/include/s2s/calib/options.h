@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "s2s/calib/swath.h"
+#include "s2s/calib/texture.h"
 #include "s2s/calib/water_mirror.h"
 
 namespace s2s::calib {
@@ -30,6 +31,7 @@ struct CalibrationOptions {
   /// bend of a cell): however many there are, together they tell no more than 1 / share^2 independent ones.
   double commonShare = 0.05;
 
+  TextureOptions texture;     ///< section [calibration.texture]
   WaterMirrorOptions mirror;  ///< section [calibration.mirror]
 
   // What is known beforehand: how far the truth may be from the nominal values

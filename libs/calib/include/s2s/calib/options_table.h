@@ -9,6 +9,8 @@ namespace s2s::calib {
 core::OptionTable optionTable(CalibrationOptions& options);
 /// The keys of [calibration.mirror].
 core::OptionTable optionTable(WaterMirrorOptions& options);
+/// The keys of [calibration.texture].
+core::OptionTable optionTable(TextureOptions& options);
 /// The keys of [calibration.swath].
 core::OptionTable optionTable(SwathOptions& options);
 

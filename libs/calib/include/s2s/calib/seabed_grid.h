@@ -38,6 +38,8 @@ class SeabedGrid {
 
   /// The four corners (lower left, lower right, upper left, upper right) of a cell that has them all, else null.
   std::array<double*, 4> corners(const Index& cell);
+  /// The node nearest to a place, if there is one at that corner.
+  double* nearestNode(double x_m, double y_m);
   /// Runs of three nodes along x or y.
   std::vector<std::array<double*, 3>> triples();
   /// All heights, in the order in which nodes were made.

@@ -22,7 +22,8 @@ enum SonarParameter : int {
   kRotY = 4,        ///< about the imaging plane's other axis (moves the plane up and down),
   kRotZ = 5,        ///< about the plane's normal (turns the bearings)
   kTime = 6,        ///< [s] recorded time less true time
-  kNear = 7,        ///< [rad] how far the aperture reaches beyond half its nominal width, on the near edge of the band
+  kNear = 7,        ///< [rad] how far the aperture reaches beyond half its nominal width, on the near edge of the band;
+                    ///< of an upright plane: elevation of the middle of its aperture
   kFar = 8,         ///< [rad] the same on the far edge
   kNearBend = 9,    ///< [rad] more of it at a bearing of one radian, growing with the bearing's square, near edge
   kFarBend = 10,    ///< [rad] the same on the far edge
@@ -30,8 +31,10 @@ enum SonarParameter : int {
   kScale = 12,      ///< share of the range by which it is measured too long, beyond what the sound speed explains
   kRangeTilt = 13,  ///< [m/rad] range error that grows with bearing
   kRangeBend = 14,  ///< [m/rad^2] and with its square
+  kTextureTilt = 15,  ///< [m/rad] how much higher the bed is that texture shows, growing with elevation: at grazing
+                      ///< incidence crests count for more
 };
-constexpr int kSonarParameters = 15;
+constexpr int kSonarParameters = 16;
 /// Those before this one are wanted; the rest are nuisances.
 constexpr int kWantedSonarParameters = 7;
 using SonarVector = std::array<double, kSonarParameters>;

@@ -91,7 +91,8 @@ Eigen::Matrix<T, 3, 1> echoPoint(const Echo& echo, const SonarState& sonar, cons
   T beyond(0);
   if (echo.kind == EchoKind::NearEdge) beyond = correction[kNear] + correction[kNearBend] * (bearing * bearing);
   if (echo.kind == EchoKind::FarEdge) beyond = correction[kFar] + correction[kFarBend] * (bearing * bearing);
-  const T elevation = T(echo.elevationShare) * (T(0.5 * sonar.aperture_rad) + beyond);
+  T elevation = T(echo.elevationShare) * (T(0.5 * sonar.aperture_rad) + beyond);
+  if (echo.kind == EchoKind::Middle) elevation += correction[kNear] + correction[kNearBend] * bearing;
   return toMap<T>(toVehicle<T>(beamPoint<T>(beam, elevation, sonar.model), sonar, correction), motion, correction);
 }
 
