@@ -114,6 +114,7 @@ Json toJson(const TruthReport& report) {
   json["T_world_map"] = transform(report.T_world_map);
   json["layers"] = Json::object();
   for (const auto& [layer, distance] : report.layers) json["layers"][map::layerName(layer)] = toJson(distance);
+  for (const auto& [name, distance] : report.walls) json["layers"][name] = toJson(distance);
   for (const auto& medium : report.media) json[medium.name] = toJson(medium);
   json["seabed"] = report.seabed ? toJson(*report.seabed) : Json(nullptr);
   json["objects"] = Json::array();

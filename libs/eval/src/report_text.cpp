@@ -46,17 +46,19 @@ std::string trajectoryText(const std::vector<TrajectoryReport>& trajectories) {
   return absolute.print() + '\n' + relative.print() + '\n' + segments.print();
 }
 
-std::string layersText(const std::map<map::Layer, LayerDistance>& layers) {
+std::string layersText(const TruthReport& report) {
   TextTable table({"layer to true surface", "points", "measured", "mean [m]", "median [m]", "95 % [m]", "<= 5 cm [%]",
                    "<= 10 cm [%]", "<= 20 cm [%]"});
-  for (const auto& [layer, d] : layers) {
+  const auto addRow = [&](const std::string& name, const LayerDistance& d) {
     if (d.sampled == 0)
-      table.addRow({map::layerName(layer), "0", "0", "-", "-", "-", "-", "-", "-"});
+      table.addRow({name, "0", "0", "-", "-", "-", "-", "-", "-"});
     else
-      table.addRow({map::layerName(layer), std::to_string(d.points), std::to_string(d.sampled),
-                    fixed(d.distance_m.mean, 4), fixed(d.distance_m.median, 4), fixed(d.distance_m.p95, 4),
-                    percent(d.within5cm), percent(d.within10cm), percent(d.within20cm)});
-  }
+      table.addRow({name, std::to_string(d.points), std::to_string(d.sampled), fixed(d.distance_m.mean, 4),
+                    fixed(d.distance_m.median, 4), fixed(d.distance_m.p95, 4), percent(d.within5cm),
+                    percent(d.within10cm), percent(d.within20cm)});
+  };
+  for (const auto& [layer, d] : report.layers) addRow(map::layerName(layer), d);
+  for (const auto& [name, d] : report.walls) addRow(name, d);
   return table.print();
 }
 
@@ -116,7 +118,7 @@ std::string toText(const TruthReport& report) {
   const bool poses = report.mapAlignment == TrajectoryAlignment::Poses;
   text += std::string("\nThe map is brought into the world by the ") + (poses ? "poses" : "positions") +
           " of trajectory.tum alone.\n";
-  text += layersText(report.layers);
+  text += layersText(report);
   if (!report.media.empty()) text += '\n' + mediaText(report.media);
   if (report.seabed) text += '\n' + seabedText(*report.seabed);
   if (!report.objects.empty()) text += '\n' + objectsText(report.objects);

@@ -106,6 +106,15 @@ std::optional<MediumScore> scoreMedium(const std::string& name, bool lidar, cons
   return score;
 }
 
+/// The faces of walls, each cell by its middle.
+void measureWalls(const std::string& file, const MeshQuery& world, TruthReport& report) {
+  std::map<std::string, std::vector<Eigen::Vector3d>> faces;
+  products::forEachPlyPoint(file, [&](const products::PlyPoint& point) {
+    faces[point.source == 0 ? "walls_lidar" : "walls_sonar"].push_back(report.T_world_map * point.p);
+  });
+  for (const auto& [name, points] : faces) report.walls[name] = measureLayer(world, points, points.size());
+}
+
 void measureLayers(const MapFolder& map, const TruthFolder& truth, const core::Trajectory& path,
                    const TruthOptions& options, TruthReport& report) {
   const MeshQuery world(truth.world);
@@ -120,6 +129,7 @@ void measureLayers(const MapFolder& map, const TruthFolder& truth, const core::T
     else
       report.notes.push_back(std::string("layer ") + map::layerName(layer) + ": no such file in the map folder");
   }
+  if (const auto file = map.wallFile()) measureWalls(*file, world, report);
   report.objects = consumers.finder.presence();
   if (!options.objectPictures.empty()) writeObjectPictures(consumers.finder, options.objectPictures);
   if (auto score = scoreMedium("above_water", true, report, consumers.aboveWater))

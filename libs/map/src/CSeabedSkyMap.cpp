@@ -23,7 +23,8 @@ bool isNear(const core::Isometry& a, const core::Isometry& b) {
 
 CSeabedSkyMap::CSeabedSkyMap() { resolver_.reset(options_.resolver); }
 
-CSeabedSkyMap::CSeabedSkyMap(const MapOptions& options) : options_(options), surface_(options.surface) {
+CSeabedSkyMap::CSeabedSkyMap(const MapOptions& options)
+    : options_(options), surface_(options.surface), walls_(options.walls) {
   resolver_.reset(options_.resolver);
 }
 
@@ -53,6 +54,9 @@ bool CSeabedSkyMap::addKeyframe(const Keyframe& keyframe) {
 std::size_t CSeabedSkyMap::setKeyframePoses(const std::map<std::uint64_t, core::Isometry>& T_map_vehicle) {
   touch();
   const std::size_t found = keyframes_.setPoses(T_map_vehicle);
+  // Where walls come to stand must be known before the LiDAR's points are put there.
+  for (const StoredLineScan& scan : lineScans_)
+    if (scan.T_surface_vehicle && !isNear(*scan.T_surface_vehicle, mapPose(scan.pose))) learnWalls(scan);
   for (StoredScan& scan : scans_) enterIntoSurface(scan);
   for (StoredLineScan& scan : lineScans_) enterIntoSurface(scan);
   return found;
@@ -213,18 +217,43 @@ void CSeabedSkyMap::visit(const StoredLineScan& scan, const core::Isometry& T_ma
 
 template <class Scan>
 void CSeabedSkyMap::enterIntoSurface(Scan& scan) {
-  if (scan.pose.layer == Layer::Lidar) return;
   const core::Isometry T_map_vehicle = mapPose(scan.pose);
   if (scan.T_surface_vehicle) {
     if (isNear(*scan.T_surface_vehicle, T_map_vehicle)) return;
-    visit(scan, *scan.T_surface_vehicle, [this](const MapPoint& p) { surface_.remove(p); });
+    visit(scan, *scan.T_surface_vehicle, [&](const MapPoint& p) {
+      surface_.remove(p);
+      walls_.remove(p, scan.wallEpoch);
+    });
   }
-  visit(scan, T_map_vehicle, [this](const MapPoint& p) { surface_.add(p); });
+  learnWalls(scan);
+  scan.wallEpoch = walls_.epoch();
+  visit(scan, T_map_vehicle, [this](const MapPoint& p) {
+    surface_.add(p);
+    walls_.add(p);
+  });
   scan.T_surface_vehicle = T_map_vehicle;
+}
+
+void CSeabedSkyMap::learnWalls(const StoredLineScan& scan) {
+  const core::Isometry T_map_vehicle = mapPose(scan.pose);
+  const Eigen::Vector2d eye = T_map_vehicle.translation().head<2>();
+  visit(scan, T_map_vehicle, [&](const MapPoint& p) {
+    const Eigen::Vector2d place = p.p_map.head<2>();
+    if (!p.isWall || walls_.knows(place)) return;
+    const auto wall = resolver_.wallNear(place.x(), place.y());
+    if (!wall) return;
+    // The evidence stays where it was until all is resolved again; a ping that was moved far off takes its own place.
+    const double here_m = wall->normal.dot(place);
+    const double wall_m = std::abs(here_m - wall->offset_m) <= options_.walls.reach_m ? wall->offset_m : here_m;
+    const double side = wall->normal.dot(eye) < wall_m ? -1 : 1;
+    walls_.learn(place, side * wall->normal, side * wall_m);
+  });
 }
 
 void CSeabedSkyMap::rebuildSurface() {
   surface_ = SurfaceEstimator(options_.surface);
+  walls_ = WallEstimator(options_.walls);
+  for (const StoredLineScan& scan : lineScans_) learnWalls(scan);
   for (StoredScan& scan : scans_) scan.T_surface_vehicle.reset();
   for (StoredLineScan& scan : lineScans_) scan.T_surface_vehicle.reset();
   for (StoredScan& scan : scans_) enterIntoSurface(scan);
@@ -280,6 +309,7 @@ void CSeabedSkyMap::internal_clear() {
   thinner_.clear();
   resolver_.reset(options_.resolver);
   surface_.clear();
+  walls_.clear();
   pairer_.reset();
   touch();
 }

@@ -31,17 +31,17 @@ std::uint64_t keyOf(std::int32_t tileColumn, std::int32_t tileRow) {
 }
 
 [[noreturn]] void failed(const char* what) {
-  throw core::OutputError(std::string("tiles of the seabed's surface cannot be ") + what, "temporary file",
+  throw core::OutputError(std::string("tiles of the estimated surface cannot be ") + what, "temporary file",
                           "make room on the disk of the folder for temporary files (TMPDIR), or raise max_tiles");
 }
 
 }  // namespace
 
-SurfaceEstimator::Tiles::~Tiles() {
+SurfaceTiles::~SurfaceTiles() {
   if (file_) std::fclose(file_);
 }
 
-SurfaceColumn& SurfaceEstimator::Tiles::at(std::int32_t column, std::int32_t row) {
+SurfaceColumn& SurfaceTiles::at(std::int32_t column, std::int32_t row) {
   constexpr std::int32_t kMask = kSide - 1;
   const std::uint64_t key = keyOf(column >> kBits, row >> kBits);
   if (!last_ || key != lastKey_ || !last_->tile) {
@@ -59,7 +59,7 @@ SurfaceColumn& SurfaceEstimator::Tiles::at(std::int32_t column, std::int32_t row
                         static_cast<std::size_t>(column & kMask)];
 }
 
-void SurfaceEstimator::Tiles::forEach(const std::function<void(std::int32_t, std::int32_t, const Tile&)>& visit) const {
+void SurfaceTiles::forEach(const std::function<void(std::int32_t, std::int32_t, const Tile&)>& visit) const {
   for (const auto& [key, entry] : entries_) {
     const auto column = static_cast<std::int32_t>(key >> 32) * kSide;
     const auto row = static_cast<std::int32_t>(key & 0xffffffffU) * kSide;
@@ -70,7 +70,7 @@ void SurfaceEstimator::Tiles::forEach(const std::function<void(std::int32_t, std
   }
 }
 
-void SurfaceEstimator::Tiles::makeRoom() {
+void SurfaceTiles::makeRoom() {
   std::vector<Entry*> present;
   for (auto& [key, entry] : entries_)
     if (entry.tile) present.push_back(&entry);
@@ -80,7 +80,7 @@ void SurfaceEstimator::Tiles::makeRoom() {
   for (std::size_t i = 0; i < few; ++i) putAway(*present[i]);
 }
 
-void SurfaceEstimator::Tiles::putAway(Entry& entry) {
+void SurfaceTiles::putAway(Entry& entry) {
   std::vector<char> bytes;
   for (const SurfaceColumn& column : *entry.tile) {
     append(bytes, static_cast<std::uint32_t>(column.bins.size()));
@@ -105,7 +105,7 @@ void SurfaceEstimator::Tiles::putAway(Entry& entry) {
   --inMemory_;
 }
 
-std::unique_ptr<SurfaceEstimator::Tiles::Tile> SurfaceEstimator::Tiles::read(const Entry& entry) const {
+std::unique_ptr<SurfaceTiles::Tile> SurfaceTiles::read(const Entry& entry) const {
   std::vector<char> bytes(static_cast<std::size_t>(entry.bytes));
   if (std::fseek(file_, entry.offset, SEEK_SET) != 0 ||
       std::fread(bytes.data(), 1, bytes.size(), file_) != bytes.size())

@@ -3,41 +3,26 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <unordered_map>
 #include <vector>
 
-#include "s2s/core/time.h"
-#include "s2s/map/surface_estimator.h"
+#include "surface_bins.h"
 
 namespace s2s::map {
 
-/// Soundings of a cell within one centimetre of height.
-struct SurfaceBin {
-  std::int32_t height_cm = 0;
-  std::uint32_t count = 0;
-  double weight = 0;          ///< sum of 1/sigma²
-  double weightedHeight = 0;  ///< sum of height/sigma²
-};
-using SurfaceBins = std::vector<SurfaceBin>;  ///< in order of height
-
-struct SurfaceColumn {
-  SurfaceBins bins;
-  std::uint32_t pings = 0;  ///< changes of the soundings' time: they come ping by ping
-  core::TimeNs lastAdded = 0, lastRemoved = 0;
-};
-
 /// All columns, in square tiles; the tiles least recently used are in a temporary file, which vanishes with it.
-class SurfaceEstimator::Tiles {
+class SurfaceTiles {
  public:
   static constexpr std::int32_t kBits = 5;
   static constexpr std::int32_t kSide = 1 << kBits;
   using Tile = std::array<SurfaceColumn, std::size_t{kSide} * kSide>;
 
-  explicit Tiles(std::size_t maxInMemory) : maxInMemory_(maxInMemory) {}
-  ~Tiles();
-  Tiles(const Tiles&) = delete;
-  Tiles& operator=(const Tiles&) = delete;
+  explicit SurfaceTiles(std::size_t maxInMemory) : maxInMemory_(maxInMemory) {}
+  ~SurfaceTiles();
+  SurfaceTiles(const SurfaceTiles&) = delete;
+  SurfaceTiles& operator=(const SurfaceTiles&) = delete;
 
   SurfaceColumn& at(std::int32_t column, std::int32_t row);
   /// Every tile with the column and row of its first cell; those put away are read without taking others' place.

@@ -49,7 +49,8 @@ SurveyConfig loadSurveyConfig(const std::string& path, const std::vector<std::st
   for (auto& [name, table] : sectionsOf(config)) table.load(ini, name);
   sonar::loadSonars(ini, config.sonar);
   ini.rejectUnread();
-  config.map.surface = config.products.grid;  // the seabed's cells are set where the product is
+  config.map.surface = config.products.grid;  // the cells of seabed and walls are set where the products are
+  config.map.walls = config.products.wallSurface;
   config.map.waterline_m = config.mapper.waterline_m;
   return config;
 }

@@ -10,7 +10,7 @@ void readPoints(PlyParser& parser, const PlyElement& element, const std::functio
   const int x = element.find("x"), y = element.find("y"), z = element.find("z");
   if (x < 0 || y < 0 || z < 0) parser.fail("the PLY vertices have no x, y and z");
   const int intensity = element.find("intensity"), sigma = element.find("sigma"), time = element.find("time"),
-            layer = element.find("layer");
+            layer = element.find("layer"), source = element.find("source");
   parser.readElement(element, [&](const PlyRow& row) {
     PlyPoint point;
     point.p = {row.scalar(x), row.scalar(y), row.scalar(z)};
@@ -18,6 +18,7 @@ void readPoints(PlyParser& parser, const PlyElement& element, const std::functio
     if (sigma >= 0) point.sigma_m = static_cast<float>(row.scalar(sigma));
     if (time >= 0) point.time_s = row.scalar(time);
     if (layer >= 0) point.layer = static_cast<int>(row.scalar(layer));
+    if (source >= 0) point.source = static_cast<int>(row.scalar(source));
     visit(point);
   });
 }

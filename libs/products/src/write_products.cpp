@@ -20,6 +20,7 @@
 #include "s2s/products/ply_writer.h"
 #include "s2s/products/report_page.h"
 #include "s2s/products/trajectory_files.h"
+#include "s2s/products/wall_files.h"
 
 namespace s2s::products {
 
@@ -50,13 +51,14 @@ class Writing {
  public:
   Writing(const PointSource& points, const Trajectories& trajectories, RunSummary summary,
           const ProductsOptions& options, std::string dir, const std::function<void(const std::string&)>& onFile,
-          const map::SurfaceEstimator* surface)
+          const map::SurfaceEstimator* surface, const map::WallEstimator* walls)
       : points_(points),
         trajectories_(trajectories),
         options_(options),
         dir_(std::move(dir)),
         onFile_(onFile),
         surface_(surface),
+        walls_(walls),
         crossSection_(SurveyFrame(trajectories.optimised, {}), options.pictures.sectionThickness_m) {
     if (!surface_ && wantsGrid()) ownSurface_ = std::make_unique<map::SurfaceEstimator>(options.grid);
     result_.summary = std::move(summary);
@@ -67,6 +69,7 @@ class Writing {
     writeTrajectories();
     firstPass();
     writeGrid();
+    writeWalls();
     secondPass();
     writeSummary();
     if (options_.report) writeReport();
@@ -150,6 +153,16 @@ class Writing {
     result_.summary.figures.emplace_back("seabed_highest_height_m", result_.seabed.maxHeight_m);
     if (options_.geoTiff) file("seabed.tif", [&](const auto& path) { writeGeoTiff(path, grid_); });
     if (options_.bag) file("seabed.bag", [&](const auto& path) { writeBag(path, grid_, result_.summary.startTime); });
+  }
+
+  void writeWalls() {
+    if (!walls_ || !options_.walls) return;
+    const auto cells = wallCells(*walls_);
+    if (cells.empty()) return;
+    const WallStatistics statistics = wallStatistics(cells, walls_->options().cell_m);
+    result_.summary.figures.emplace_back("wall_area_by_lidar_m2", statistics.lidarArea_m2);
+    result_.summary.figures.emplace_back("wall_area_by_sonar_m2", statistics.sonarArea_m2);
+    file("walls.ply", [&](const auto& path) { writeWallPly(path, cells); });
   }
 
   MapColours colours() const {
@@ -262,6 +275,7 @@ class Writing {
   HeightDatum datum_;
   CloudStatistics statistics_;
   const map::SurfaceEstimator* surface_;
+  const map::WallEstimator* walls_;
   std::unique_ptr<map::SurfaceEstimator> ownSurface_;  ///< if none was given
   CrossSectionFinder crossSection_;
   HeightGrid grid_;
@@ -274,14 +288,15 @@ class Writing {
 ProductsResult writeProducts(const PointSource& points, const Trajectories& trajectories, RunSummary summary,
                              const ProductsOptions& options, const std::string& dir,
                              const std::function<void(const std::string&)>& onFile,
-                             const map::SurfaceEstimator* surface) {
-  return Writing(points, trajectories, std::move(summary), options, dir, onFile, surface).run();
+                             const map::SurfaceEstimator* surface, const map::WallEstimator* walls) {
+  return Writing(points, trajectories, std::move(summary), options, dir, onFile, surface, walls).run();
 }
 
 ProductsResult writeProducts(const map::CSeabedSkyMap& map, const Trajectories& trajectories, RunSummary summary,
                              const ProductsOptions& options, const std::string& dir,
                              const std::function<void(const std::string&)>& onFile) {
-  return writeProducts(pointsOf(map), trajectories, std::move(summary), options, dir, onFile, &map.surface());
+  return writeProducts(pointsOf(map), trajectories, std::move(summary), options, dir, onFile, &map.surface(),
+                       &map.walls());
 }
 
 }  // namespace s2s::products

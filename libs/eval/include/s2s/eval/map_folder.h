@@ -22,6 +22,8 @@ class MapFolder {
   std::optional<core::Trajectory> odometry() const;
   /// `<layer>.ply` or `map_<layer>.ply`; nothing if neither is there.
   std::optional<std::string> layerFile(map::Layer layer) const;
+  /// walls.ply; nothing if it is absent.
+  std::optional<std::string> wallFile() const { return existing("walls.ply"); }
   /// seabed.tif; nothing if it is absent.
   std::optional<products::HeightGrid> seabed() const;
   /// `water_height_m` of summary.json, the height of the water surface in the map frame; nothing if it is not stated.

@@ -54,6 +54,8 @@ struct TruthReport {
   TrajectoryAlignment mapAlignment = TrajectoryAlignment::Poses;
   core::Isometry T_world_map = core::Isometry::Identity();
   std::map<map::Layer, LayerDistance> layers;
+  /// Cells of `walls.ply` by what saw them: "walls_lidar", "walls_sonar".
+  std::map<std::string, LayerDistance> walls;
   std::vector<MediumScore> media;  ///< of those that have layers
   std::optional<SeabedError> seabed;
   std::vector<ObjectPresence> objects;

@@ -90,6 +90,8 @@ class CSeabedSkyMap : public mrpt::maps::CMetricMap {
   /// The seabed as estimated from all sonar points at their present places. It grows with every insertion; scans that a
   /// graph update has moved are taken out and put in again.
   const SurfaceEstimator& surface() const { return surface_; }
+  /// The walls that sonars have met, likewise.
+  const WallEstimator& walls() const { return walls_; }
   /// Number of line-scan points by the way their elevation was decided.
   std::array<std::size_t, kElevationSources> elevationSources(Layer layer) const;
   /// Bytes that the points take.
@@ -141,9 +143,12 @@ class CSeabedSkyMap : public mrpt::maps::CMetricMap {
              const std::function<void(const MapPoint&)>& visit) const;
   void visit(const StoredLineScan& scan, const core::Isometry& T_map_vehicle,
              const std::function<void(const MapPoint&)>& visit) const;
-  /// Enters a scan of a sonar into the surface where it is now, after taking it out where it was.
+  /// Enters a scan into the surfaces where it is now, after taking it out where it was.
   template <class Scan>
   void enterIntoSurface(Scan& scan);
+  /// Lets the wall estimator know of the walls that a ping's returns were found to lie on.
+  void learnWalls(const StoredScan&) {}
+  void learnWalls(const StoredLineScan& scan);
   void rebuildSurface();
   bool insertPing(const obs::CObservationImagingSonar& ping,
                   const std::optional<const mrpt::poses::CPose3D>& robotPose);
@@ -160,6 +165,7 @@ class CSeabedSkyMap : public mrpt::maps::CMetricMap {
   VoxelThinner thinner_;
   LineScanResolver resolver_;
   SurfaceEstimator surface_;
+  WallEstimator walls_;
   std::shared_ptr<NearestCache> nearest_ = makeNearestCache();
   std::shared_ptr<PingPairer> pairer_;  // made with the first ping that MRPT inserts
 

@@ -38,6 +38,8 @@ class LineScanResolver {
   void addStereoPoint(const Eigen::Vector3d& p_map, double sigma_m);
   /// A LiDAR point just above the water: walls only.
   void addWallPoint(const Eigen::Vector3d& p_map) { walls_.addWallPoint(p_map); }
+  /// The wall known at a place, see SurfaceEvidence.
+  std::optional<SurfaceEvidence::Wall> wallNear(double x_m, double y_m) const { return walls_.wallNear(x_m, y_m); }
   /// A resolved ping. What one sonar saw is evidence for the other, never for itself: it would only agree with itself.
   void addLineScan(const StoredLineScan& scan, const core::Isometry& T_map_vehicle);
 

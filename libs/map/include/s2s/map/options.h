@@ -5,6 +5,7 @@
 
 #include "s2s/map/keyframes.h"
 #include "s2s/map/surface_estimator.h"
+#include "s2s/map/wall_estimator.h"
 
 namespace s2s::map {
 
@@ -71,6 +72,7 @@ struct MapOptions {
   ViewOptions view;
   // Not streamed with the map: whoever reads it chooses.
   SurfaceOptions surface;
+  WallSurfaceOptions walls;
   double waterline_m = 0;  ///< height of the water surface in the vehicle frame at rest
 };
 

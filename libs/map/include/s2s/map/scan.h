@@ -103,13 +103,15 @@ struct ScanPose {
 
 struct StoredScan {
   ScanPose pose;
-  std::optional<core::Isometry> T_surface_vehicle;  ///< where it entered the map's surface; derived, not streamed
+  std::optional<core::Isometry> T_surface_vehicle;  ///< where it entered the map's surfaces; derived, not streamed
+  std::uint64_t wallEpoch = 0;                      ///< that of the walls then
   std::vector<PackedPoint> points;
 };
 
 struct StoredLineScan {
   ScanPose pose;
   std::optional<core::Isometry> T_surface_vehicle;  ///< as above
+  std::uint64_t wallEpoch = 0;
   core::Isometry T_vehicle_sonar = core::Isometry::Identity();
   float verticalAperture_rad = 0, bearingSigma_rad = 0;
   obs::BearingModel bearingModel = obs::BearingModel::Azimuth;

@@ -10,6 +10,8 @@
 
 namespace s2s::map {
 
+class SurfaceTiles;
+
 /// How soundings become a surface.
 struct SurfaceOptions {
   double cell_m = 0.5;
@@ -78,11 +80,10 @@ class SurfaceEstimator {
   std::size_t tileCount() const;
 
  private:
-  class Tiles;
   void enter(const MapPoint& point, int sign);
 
   SurfaceOptions options_;
-  std::unique_ptr<Tiles> tiles_;
+  std::unique_ptr<SurfaceTiles> tiles_;
   std::uint64_t soundings_ = 0, notFinite_ = 0;
 };
 

@@ -16,6 +16,7 @@ struct PlyPoint {
   float sigma_m = 0;
   double time_s = 0;  ///< Unix seconds
   int layer = 0;
+  int source = 0;  ///< of `walls.ply`: 0 LiDAR, 1 sonar
 };
 
 /// A point cloud or a triangle mesh.

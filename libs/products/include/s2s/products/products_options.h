@@ -1,5 +1,6 @@
 #pragma once
 
+#include "s2s/map/wall_estimator.h"
 #include "s2s/products/seabed_gridder.h"
 
 namespace s2s::products {
@@ -19,6 +20,7 @@ struct ProductsOptions {
   bool las = true;
   bool geoTiff = true;
   bool bag = true;
+  bool walls = true;               ///< `walls.ply`: the faces of walls that sonars have met
   bool scene = true;               ///< MRPT `.3Dscene`
   bool simpleMap = false;          ///< MRPT `.simplemap`
   bool kitti = false;              ///< the trajectory in KITTI form too
@@ -27,6 +29,7 @@ struct ProductsOptions {
   int sceneMaxPoints = 3'000'000;  ///< more make MRPT's viewer slow; the rest is left out evenly
   int simpleMapMaxPoints = 5'000'000;
   SeabedGridOptions grid;
+  map::WallSurfaceOptions wallSurface;
   PictureOptions pictures;
 };
 

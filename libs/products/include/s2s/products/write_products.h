@@ -42,11 +42,12 @@ struct ProductsResult {
 /// @param summary what the mapper knows of its run; the rest is added here
 /// @param onFile  is called with each file's name before it is written, for progress
 /// @param surface the map's own surface, for the seabed grid; null: it is estimated from the points
+/// @param walls   the map's walls; null: there is no `walls.ply`
 /// @throws core::OutputError if the folder cannot be written to
 ProductsResult writeProducts(const PointSource& points, const Trajectories& trajectories, RunSummary summary,
                              const ProductsOptions& options, const std::string& dir,
                              const std::function<void(const std::string&)>& onFile = {},
-                             const map::SurfaceEstimator* surface = nullptr);
+                             const map::SurfaceEstimator* surface = nullptr, const map::WallEstimator* walls = nullptr);
 
 /// The same with the points and the surface of a map.
 ProductsResult writeProducts(const map::CSeabedSkyMap& map, const Trajectories& trajectories, RunSummary summary,
