@@ -86,5 +86,28 @@ TEST_P(EchoPointModels, Derivatives_AgreeWithDifferences) {
 
 INSTANTIATE_TEST_SUITE_P(Both, EchoPointModels, ::testing::Values(obs::BearingModel::Azimuth, obs::BearingModel::Cone));
 
+TEST(BandResidual, LeaningPlaneOverLevelBed_FitsAsAWholeThoughItsPointsDoNot) {
+  SonarState sonar = sonarState(obs::BearingModel::Azimuth);
+  sonar.T_vehicle_sonar = core::isometryFromXyzYpr(0, 0, -0.5, 0, M_PI / 4, 95 * M_PI / 180);
+  const PingMotion motion;
+  const double bearing = 0.1, bed = -3, c = 1480;
+  double mean = 0;  // range over the aperture, as a band's centre tells it
+  constexpr int kRays = 201;
+  for (int k = 0; k < kRays; ++k) {
+    const double elevation = (static_cast<double>(k) / (kRays - 1) - 0.5) * sonar.aperture_rad;
+    const Eigen::Vector3d ray = sonar.T_vehicle_sonar.linear() * sonar::pointAt({1, bearing, elevation}, sonar.model);
+    mean += (bed - sonar.T_vehicle_sonar.translation().z()) / ray.z() / kRays;
+  }
+  const Echo echo{static_cast<float>(bearing), static_cast<float>(mean), EchoKind::Band,
+                  static_cast<float>(1 / std::sqrt(3.0))};
+  const SeabedResidual one{echo, &sonar, &motion, {0, 0}, 0.5, 1};
+  double point = 0, band = 0;
+  one(sonar.correction.data(), &c, &bed, &bed, &bed, &bed, &point);
+  BandResidual{one, {0, 0}}(sonar.correction.data(), &c, &bed, &bed, &bed, &bed, &bed, &bed, &bed, &bed, &band);
+  EXPECT_LT(std::abs(band), 0.002);  // quadrature of two points, and the mean of ranges for that of heights
+  EXPECT_GT(std::abs(point),
+            0.015);  // 5 deg of lean at a tenth of a radian beside the middle, 3.5 m away: 3 cm less bend
+}
+
 }  // namespace
 }  // namespace s2s::calib

@@ -67,12 +67,14 @@ TEST(EchoTable, BandCutByTheLastBin_HasNoFarEdge) {
   EXPECT_EQ(echoesOf({{0.1, 3, 9.95, 6, 1}}, pitched, 0.35, 10).size(), 1u);
 }
 
-TEST(EchoTable, UprightPlane_GivesMiddlesOnBothSides) {
+TEST(EchoTable, UprightPlane_GivesOneBandEach) {
   const core::Isometry upright = core::isometryFromXyzYpr(0, 0, 0, 0, M_PI / 4, M_PI / 2);
   const auto echoes = echoesOf({{0.1, 3.9, 4.1, 4, 1}, {0.2, 3.9, 4.1, 4, 1}}, upright, 0.35, 10);
   ASSERT_EQ(echoes.size(), 2u);
-  EXPECT_EQ(echoes[0].kind, EchoKind::Middle);
-  EXPECT_FLOAT_EQ(echoes[0].elevationShare, -echoes[1].elevationShare);
+  for (const Echo& echo : echoes) {
+    EXPECT_EQ(echo.kind, EchoKind::Band);
+    EXPECT_FLOAT_EQ(echo.elevationShare, static_cast<float>(1 / std::sqrt(3.0)));  // Gauss' two points
+  }
 }
 
 }  // namespace

@@ -40,6 +40,7 @@ EvidenceKind seabedKind(const Echo& echo) {
     case EchoKind::Ridge:
       return EvidenceKind::WallEdge;
     case EchoKind::Middle:
+    case EchoKind::Band:
       break;
   }
   return EvidenceKind::Middle;
@@ -146,6 +147,7 @@ void Association::placeEcho(const Echo& echo, const UsedEcho& common, const Cali
   Echo farther = placed.used.echo;
   farther.range_m += 1;
   placed.p_farther_map = place(farther);
+  if (placed.used.echo.kind == EchoKind::Band) placed.other_map = place(otherPoint(placed.used.echo));
   echoes_.push_back(placed);
 }
 
@@ -186,7 +188,10 @@ void Association::fitGrid(SeabedGrid& grid) const {
   std::vector<Eigen::Vector3d> points;
   points.reserve(echoes_.size());
   for (const auto& placed : echoes_)
-    if (placed.mayBeSeabed) points.push_back(placed.p_map);
+    if (placed.mayBeSeabed) {
+      points.push_back(placed.p_map);
+      if (placed.other_map) points.push_back(*placed.other_map);
+    }
   grid.fit(points, options_.minCellEchoes);
 }
 
@@ -203,6 +208,17 @@ bool Association::associateWithWall(PlacedEcho& placed, const SeabedGrid& grid, 
   return true;
 }
 
+/// How far a band's other point is above the bed. Nothing where there is no bed or both points share some of it.
+std::optional<double> Association::gapOfOther(PlacedEcho& placed, const SeabedGrid& grid) const {
+  const Eigen::Vector3d& p = *placed.other_map;
+  const auto seabed = grid.at(p.x(), p.y());
+  if (!seabed) return {};
+  const auto cell = grid.cellOf(placed.p_map.x(), placed.p_map.y());
+  placed.used.otherCell = grid.cellOf(p.x(), p.y());
+  if (std::abs(cell.x - placed.used.otherCell.x) < 2 && std::abs(cell.y - placed.used.otherCell.y) < 2) return {};
+  return p.z() - seabed->height_m;
+}
+
 void Association::associateEchoes(const SeabedGrid& grid, double gate_m) {
   for (PlacedEcho& placed : echoes_) {
     const auto kind = at(placed.used.kind);
@@ -213,10 +229,12 @@ void Association::associateEchoes(const SeabedGrid& grid, double gate_m) {
       continue;
     }
     const auto seabed = placed.mayBeSeabed ? grid.at(placed.p_map.x(), placed.p_map.y()) : std::nullopt;
-    const double gap_m = seabed ? placed.p_map.z() - seabed->height_m : 0;
+    double gap_m = seabed ? placed.p_map.z() - seabed->height_m : 0;
+    const auto other_m = seabed && placed.other_map ? gapOfOther(placed, grid) : std::nullopt;
+    if (other_m) gap_m = 0.5 * (gap_m + *other_m);
     const Eigen::Vector3d ray = placed.p_farther_map - placed.p_map;
     const double slope = seabed ? std::abs(ray.z() - seabed->slope.dot(ray.head<2>())) : 0;
-    if (!seabed || std::abs(gap_m) > gate_m || slope < kLeastSlope) {
+    if (!seabed || (placed.other_map && !other_m) || std::abs(gap_m) > gate_m || slope < kLeastSlope) {
       ++leftOut_[kind];
       continue;
     }

@@ -30,7 +30,8 @@ class Association {
  private:
   struct PlacedEcho {
     UsedEcho used;
-    Eigen::Vector3d p_map, p_farther_map;  ///< p_farther: a metre further out
+    Eigen::Vector3d p_map, p_farther_map;      ///< p_farther: a metre further out
+    std::optional<Eigen::Vector3d> other_map;  ///< of a band: its other point
     bool mayBeSeabed = true;
   };
   const PingMotion* motionOf(core::TimeNs recorded, const SonarState& sonar);
@@ -40,6 +41,7 @@ class Association {
   bool placeAtWall(PlacedEcho& placed, const CalibrationState& state) const;
   void fitGrid(SeabedGrid& grid) const;
   void associateEchoes(const SeabedGrid& grid, double gate_m);
+  std::optional<double> gapOfOther(PlacedEcho& placed, const SeabedGrid& grid) const;
   bool associateWithWall(PlacedEcho& placed, const SeabedGrid& grid, double gate_m);
   void findDepth(const CalibrationState& state);
   void findTexture(const CalibrationState& state, SeabedGrid& grid, double reach_m);

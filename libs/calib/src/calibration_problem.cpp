@@ -154,8 +154,18 @@ void CalibrationProblem::addEcho(const UsedEcho& used, double weight) {
     return;
   }
   const auto [h00, h10, h01, h11] = grid_.corners(used.cell);
-  auto* cost = new ceres::AutoDiffCostFunction<SeabedResidual, 1, kSonarParameters, 1, 1, 1, 1, 1>(
-      new SeabedResidual{used.echo, &sonar, used.motion, grid_.corner_m(used.cell), grid_.cell_m(), used.weight_perM});
+  const SeabedResidual residual{used.echo,      &sonar,          used.motion, grid_.corner_m(used.cell),
+                                grid_.cell_m(), used.weight_perM};
+  if (used.echo.kind == EchoKind::Band) {
+    const auto [k00, k10, k01, k11] = grid_.corners(used.otherCell);
+    auto* band = new ceres::AutoDiffCostFunction<BandResidual, 1, kSonarParameters, 1, 1, 1, 1, 1, 1, 1, 1, 1>(
+        new BandResidual{residual, grid_.corner_m(used.otherCell)});
+    dataBlocks_.push_back(problem_.AddResidualBlock(band, loss(weight), of(sonar), &state_.soundSpeed_mps, h00, h10,
+                                                    h01, h11, k00, k10, k01, k11));
+    return;
+  }
+  auto* cost =
+      new ceres::AutoDiffCostFunction<SeabedResidual, 1, kSonarParameters, 1, 1, 1, 1, 1>(new SeabedResidual(residual));
   dataBlocks_.push_back(
       problem_.AddResidualBlock(cost, loss(weight), of(sonar), &state_.soundSpeed_mps, h00, h10, h01, h11));
 }

@@ -22,6 +22,7 @@ struct UsedEcho {
   const PingMotion* motion = nullptr;
   int block = 0;                  ///< of time
   SeabedGrid::Index cell;         ///< of the seabed that it lies on, ...
+  SeabedGrid::Index otherCell;    ///< of a band's other point
   std::optional<WallPlane> wall;  ///< ... or the wall
   double weight_perM = 1;
 };

@@ -17,10 +17,9 @@ double upOf(const core::Isometry& T_vehicle_sonar) { return T_vehicle_sonar.line
 
 float lowerEdge(const core::Isometry& T_vehicle_sonar) { return upOf(T_vehicle_sonar) > 0 ? -1.0F : 1.0F; }
 
-void addMiddle(const Swath& swath, bool upper, std::vector<Echo>& echoes) {
-  const double share = (upper ? 1 : -1) / std::sqrt(3.0);
-  echoes.push_back({static_cast<float>(swath.bearing_rad), static_cast<float>(swath.middle_m), EchoKind::Middle,
-                    static_cast<float>(share)});
+void addBand(const Swath& swath, std::vector<Echo>& echoes) {
+  echoes.push_back({static_cast<float>(swath.bearing_rad), static_cast<float>(swath.middle_m), EchoKind::Band,
+                    static_cast<float>(1 / std::sqrt(3.0))});
 }
 
 void addEdges(const Swath& swath, float lower, double maxRange_m, std::vector<Echo>& echoes) {
@@ -50,11 +49,10 @@ std::vector<Echo> echoesOf(const std::vector<Swath>& swaths, const core::Isometr
                            double maxRange_m) {
   const bool upright = std::abs(upOf(T_vehicle_sonar)) < std::sin(aperture_rad);
   std::vector<Echo> echoes;
-  bool upper = false;
   for (const Swath& swath : swaths) {
     if (upright && swath.far_m - swath.near_m > kLongestMiddle_m) continue;
     if (upright)
-      addMiddle(swath, upper = !upper, echoes);
+      addBand(swath, echoes);
     else
       addEdges(swath, lowerEdge(T_vehicle_sonar), maxRange_m, echoes);
   }

@@ -14,7 +14,8 @@ namespace s2s::calib {
 enum class EchoKind : std::uint8_t {
   NearEdge = 0,  ///< the band begins: the lower edge of the aperture meets the seabed
   FarEdge = 1,   ///< the band ends: the upper edge meets it
-  Middle = 2,    ///< centre of the band of a plane that crosses the seabed upright: the mean over the aperture
+  Middle = 2,    ///< a point of the aperture, met at the range of a band's centre
+  Band = 4,      ///< the same, as one: the mean over the aperture is that of the two points of Gauss' quadrature
   Ridge = 3      ///< stands out of the bed's echo: of a wall behind it, at an unknown elevation
 };
 
@@ -36,8 +37,9 @@ struct PingEchoes {
 ///
 /// A plane that crosses the vertical by more than the aperture (the horizontal sonar's, pitched down) meets the seabed
 /// with the aperture's lower edge first and its upper edge last. A nearly upright plane (the vertical sonar's) meets it
-/// at all elevations at about one range: the centre of the band is the mean over the aperture, taken at the two points
-/// of Gauss' quadrature, +-1/sqrt(3) of half the aperture, on every other beam.
+/// at all elevations at about one range: the centre of the band is the mean over the aperture, that of the two points
+/// of Gauss' quadrature, +-1/sqrt(3) of half the aperture. Neither of them alone need lie on the bed: under a plane
+/// that leans one is above it, the other below.
 std::vector<Echo> echoesOf(const std::vector<Swath>& swaths, const core::Isometry& T_vehicle_sonar, double aperture_rad,
                            double maxRange_m);
 

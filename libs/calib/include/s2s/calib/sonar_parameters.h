@@ -31,8 +31,8 @@ enum SonarParameter : int {
   kScale = 12,      ///< share of the range by which it is measured too long, beyond what the sound speed explains
   kRangeTilt = 13,  ///< [m/rad] range error that grows with bearing
   kRangeBend = 14,  ///< [m/rad^2] and with its square
-  kTextureTilt = 15,  ///< [m/rad] how much higher the bed is that texture shows, growing with elevation: at grazing
-                      ///< incidence crests count for more
+  kTextureTilt = 15,  ///< [m/rad] how much higher the bed is that texture shows, growing with elevation: presumably
+                      ///< crests count for more at grazing incidence
 };
 constexpr int kSonarParameters = 16;
 /// Those before this one are wanted; the rest are nuisances.

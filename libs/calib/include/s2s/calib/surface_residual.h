@@ -92,7 +92,8 @@ Eigen::Matrix<T, 3, 1> echoPoint(const Echo& echo, const SonarState& sonar, cons
   if (echo.kind == EchoKind::NearEdge) beyond = correction[kNear] + correction[kNearBend] * (bearing * bearing);
   if (echo.kind == EchoKind::FarEdge) beyond = correction[kFar] + correction[kFarBend] * (bearing * bearing);
   T elevation = T(echo.elevationShare) * (T(0.5 * sonar.aperture_rad) + beyond);
-  if (echo.kind == EchoKind::Middle) elevation += correction[kNear] + correction[kNearBend] * bearing;
+  if (echo.kind == EchoKind::Middle || echo.kind == EchoKind::Band)
+    elevation += correction[kNear] + correction[kNearBend] * bearing;
   return toMap<T>(toVehicle<T>(beamPoint<T>(beam, elevation, sonar.model), sonar, correction), motion, correction);
 }
 
@@ -119,6 +120,33 @@ struct SeabedResidual {
                   const T* const h01, const T* const h11, T* residual) const {
     const auto p = echoPoint<T>(echo, *sonar, *motion, correction, *soundSpeed);
     residual[0] = (p.z() - bilinear<T>(p.x(), p.y(), corner_m, cell_m, h00, h10, h01, h11)) * T(weight_perM);
+    return true;
+  }
+};
+
+/// The other one of the two points that stand for a band.
+inline Echo otherPoint(Echo band) {
+  band.elevationShare = -band.elevationShare;
+  return band;
+}
+
+/// How far the two points of a band lie above the bed on average, in standard deviations; each has its own cell.
+/// For ceres::AutoDiffCostFunction<BandResidual, 1, kSonarParameters, 1, 1, 1, 1, 1, 1, 1, 1, 1>.
+struct BandResidual {
+  SeabedResidual one;
+  Eigen::Vector2d otherCorner_m;  ///< lower corner of the other point's cell
+
+  template <class T>
+  bool operator()(const T* const correction, const T* const soundSpeed, const T* const a00, const T* const a10,
+                  const T* const a01, const T* const a11, const T* const b00, const T* const b10, const T* const b01,
+                  const T* const b11, T* residual) const {
+    SeabedResidual other = one;
+    other.echo = otherPoint(one.echo);
+    other.corner_m = otherCorner_m;
+    T gap, otherGap;
+    one(correction, soundSpeed, a00, a10, a01, a11, &gap);
+    other(correction, soundSpeed, b00, b10, b01, b11, &otherGap);
+    residual[0] = T(0.5) * (gap + otherGap);
     return true;
   }
 };
