@@ -3,6 +3,7 @@
 #include "s2s/core/error.h"
 #include "s2s/odometry/point_filter.h"
 #include "scan_tracker.h"
+#include "start_alignment.h"
 #include "start_state.h"
 
 namespace s2s::odometry {
@@ -140,6 +141,16 @@ StartState LidarInertialOdometry::rehearsedStart(const StartState& rough, const 
   return refinedStart(rough, early.value_or(rehearsal.filter()), rehearsal.filter(), imu_, options_);
 }
 
+StartState LidarInertialOdometry::aligned(const StartState& rough, const StartState& rehearsed,
+                                          const core::Isometry& T_vehicle_imu) const {
+  const core::TimeNs end = waiting_.front().endTime() + core::durationNs(options_.initialisation_s);
+  const std::vector<StartLayer> layers{lidarLayer(waiting_, end, T_vehicle_imu, options_),
+                                       seabedLayer(acousticBetween(rough.state.time, end), T_vehicle_imu, options_)};
+  return alignedStart(beforeAlignment(rough, rehearsed), imu_, std::min(end, waiting_.back().endTime()), layers,
+                      options_)
+      .value_or(rehearsed);
+}
+
 bool LidarInertialOdometry::tryStart() {
   const Scan& first = waiting_.front();
   const core::TimeNs windowEnd = first.endTime() + core::durationNs(options_.initialisation_s);
@@ -165,7 +176,9 @@ bool LidarInertialOdometry::tryStart() {
     if (deniesRest(rehearsedStart(moving, T_vehicle_imu, hasImu, kEarly_s))) rough = moving;
   }
   tracker_ = std::make_unique<ScanTracker>(options_, hasImu, T_vehicle_imu);
-  tracker_->start(rehearsedStart(rough, T_vehicle_imu, hasImu, options_.initialisation_s));
+  StartState start = rehearsedStart(rough, T_vehicle_imu, hasImu, options_.initialisation_s);
+  if (start.isAtRestByAssumption) start = aligned(rough, start, T_vehicle_imu);
+  tracker_->start(start);
   trajectory_.append(first.time, tracker_->T_odom_vehicle());
   return true;
 }

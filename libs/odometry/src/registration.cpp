@@ -5,6 +5,8 @@
 #include <Eigen/SVD>
 #include <algorithm>
 
+#include "pretended.h"
+
 namespace s2s::odometry {
 
 namespace {
@@ -153,24 +155,16 @@ NormalEquations linearise(const BodyPoints& points, const PlaneMap& map, const c
 }
 
 std::vector<Vector6> removePretended(NormalEquations& equations, double ratio) {
+  const Known<6> known = withoutPretended<6>(equations.A, equations.b, equations.pretended, ratio);
   std::vector<Vector6> unseen;
-  // A trace of the information itself keeps the noise matrix positive definite.
-  const Matrix6 pretended =
-      equations.pretended + 1e-9 * equations.A.diagonal().cwiseMax(1e-9).asDiagonal().toDenseMatrix();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix6> solver(equations.A, pretended);
-  const Matrix6& V = solver.eigenvectors();  // V^T pretended V = 1, so V^-1 = V^T pretended
-  const Matrix6 inverse = V.transpose() * pretended;
-  Vector6 known, share;
   for (int i = 0; i < 6; ++i) {
-    const double mu = solver.eigenvalues()[i];
-    known[i] = std::max(0.0, mu - ratio);
-    share[i] = mu > 0 ? known[i] / mu : 0.0;
-    if (known[i] > 0) continue;
-    const double size2 = V.col(i).head<3>().squaredNorm() + equations.meanLever2_m2 * V.col(i).tail<3>().squaredNorm();
-    unseen.emplace_back(V.col(i) / std::sqrt(size2));
+    if (known.known[i] > 0) continue;
+    const Vector6 motion = known.V.col(i);
+    const double size2 = motion.head<3>().squaredNorm() + equations.meanLever2_m2 * motion.tail<3>().squaredNorm();
+    unseen.emplace_back(motion / std::sqrt(size2));
   }
-  equations.A = inverse.transpose() * known.asDiagonal() * inverse;
-  equations.b = (inverse.transpose() * share.asDiagonal() * V.transpose() * equations.b).eval();
+  equations.A = known.A;
+  equations.b = known.b;
   return unseen;
 }
 

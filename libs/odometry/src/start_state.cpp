@@ -143,9 +143,14 @@ void useHeave(const core::Isometry& T_imu_vehicle, const ImuBuffer& imu, core::T
   start.heaveSigma_m = fit.heaveSigma_m;
 }
 
+bool leavesSpeedOpen(const StartState& start) {
+  const Matrix3d covariance = start.covariance.block<3, 3>(kVelocity, kVelocity);
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(covariance, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues()[2] > kUntoldSpeedSigma_mps * kUntoldSpeedSigma_mps;
+}
+
 /// A vessel is taken to lie about still when its record begins, in those directions in which no scan tells its speed.
-void assumeRest(const OdometryOptions& options, StartState& start) {
-  if (!options.water.velocityPrior) return;
+void assumeRest(StartState& start) {
   auto covariance = start.covariance.block<3, 3>(kVelocity, kVelocity);
   const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(Matrix3d{covariance});
   for (int i = 0; i < 3; ++i) {
@@ -229,6 +234,26 @@ StartState lidarOnlyStart(core::TimeNs startTime, const OdometryOptions& options
   return start;
 }
 
+StartState beforeAlignment(const StartState& rough, const StartState& refined) {
+  StartState start = rough;
+  start.state.velocity = refined.state.velocity;
+  start.covariance.block<3, 3>(kVelocity, kVelocity) = refined.covariance.block<3, 3>(kVelocity, kVelocity);
+  return start;
+}
+
+StartState levelled(const StartState& start) {
+  const Matrix3d R = levelRotation(-start.state.gravity);
+  StartState out = start;
+  out.state.R_odom_imu = R * start.state.R_odom_imu;
+  out.state.position = R * start.state.position;
+  out.state.velocity = R * start.state.velocity;
+  out.state.gravity = R * start.state.gravity;
+  ErrorMatrix turn = ErrorMatrix::Identity();
+  for (const int at : {kPosition, kVelocity, kGravity}) turn.block<3, 3>(at, at) = R;
+  out.covariance = turn * start.covariance * turn.transpose();
+  return out;
+}
+
 StartState refinedStart(const StartState& rough, const InertialFilter& early, const InertialFilter& rehearsed,
                         const ImuBuffer& imu, const OdometryOptions& options) {
   StartState start = rough;
@@ -278,7 +303,10 @@ StartState refinedStart(const StartState& rough, const InertialFilter& early, co
   // Where nothing in sight tells the speed in some direction, the rehearsal has not learnt it either.
   start.covariance.block<3, 3>(kVelocity, kVelocity) +=
       R_new_old * early.covariance().block<3, 3>(kVelocity, kVelocity) * R_new_old.transpose();
-  assumeRest(options, start);
+  if (options.water.velocityPrior && leavesSpeedOpen(start)) {
+    start.isAtRestByAssumption = true;
+    assumeRest(start);
+  }
   useHeave(T_imu_vehicle, imu, end.time, options, start);
   return start;
 }

@@ -12,6 +12,9 @@ struct StartState {
   ErrorMatrix covariance = ErrorMatrix::Zero();
   double heaveSigma_m = 0;  ///< of the heave that the IMU felt; 0: not known
   bool isStatic = false;    ///< the vehicle lies still at first
+  /// The scans of a rehearsal left the speed in some direction open, and with it all that would follow from it; a
+  /// vessel is then taken to lie about still.
+  bool isAtRestByAssumption = false;
 };
 
 /// First belief with an IMU: up is the mean specific force from `start` to `end`, rotated back to `start` by the gyro.
@@ -32,6 +35,13 @@ bool deniesRest(const StartState& start);
 /// its end, the speed from early on, where less of the way back to the start has to be reckoned.
 StartState refinedStart(const StartState& rough, const InertialFilter& early, const InertialFilter& rehearsed,
                         const ImuBuffer& imu, const OdometryOptions& options);
+
+/// The belief that a registration of all first scans begins with: of a blind rehearsal only the speed that is assumed,
+/// as what else it says follows from a speed that was wrong.
+StartState beforeAlignment(const StartState& rough, const StartState& refined);
+
+/// The same belief in a frame whose z axis points up.
+StartState levelled(const StartState& start);
 
 /// Rotation whose z axis is `up_body` seen from the body, and whose x axis is the body's heading.
 Eigen::Matrix3d levelRotation(const Eigen::Vector3d& up_body);

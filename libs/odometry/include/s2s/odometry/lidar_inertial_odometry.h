@@ -68,6 +68,7 @@ class LidarInertialOdometry {
   bool tryStart();
   StartState rehearsedStart(const StartState& rough, const core::Isometry& T_vehicle_imu, bool hasImu,
                             double duration_s) const;
+  StartState aligned(const StartState& rough, const StartState& rehearsed, const core::Isometry& T_vehicle_imu) const;
   std::vector<AcousticScan> acousticBetween(core::TimeNs after, core::TimeNs until) const;
   OdometryResult process(const Scan& scan);
 
