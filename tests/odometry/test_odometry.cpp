@@ -197,7 +197,8 @@ TEST(Odometry, CorridorOverRipples_SonarHoldsTheWayAlong) {
 }
 
 TEST(Odometry, StartWhereTheScansAreBlind_BiasesAreRightFromTheFirstPose) {
-  // A vessel lies about still in a corridor, over ripples. A start found scan by scan confirms its own wrong speed.
+  // A vessel lies about still in a corridor, over ripples; the walls tell its turns, so that a start found scan by scan
+  // would do here, too. What is asked is that the start found from all points at once is right and knows its clock.
   Record record = overSeabed([](double x, double y) { return -3 + 0.05 * std::sin(2 * M_PI * (x + 0.3 * y) / 1.1); });
   record.options.water.velocityPrior = true;
   for (const unsigned seed : {2U, 3U, 4U, 1U}) {

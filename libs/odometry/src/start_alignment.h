@@ -26,8 +26,10 @@ struct StartLayer {
   double shapeShare = 0;   ///< of a plane's thickness that is shape: more points do not average it out
 };
 
+/// Returns of the scans up to `end`, thinned, each at its own time; at most some ten thousands.
 StartLayer lidarLayer(const std::deque<Scan>& scans, core::TimeNs end, const core::Isometry& T_vehicle_imu,
                       const OdometryOptions& options);
+/// Acoustic points of the scans, thinned.
 StartLayer seabedLayer(const std::vector<AcousticScan>& scans, const core::Isometry& T_vehicle_imu,
                        const OdometryOptions& options);
 
@@ -38,8 +40,8 @@ StartLayer seabedLayer(const std::vector<AcousticScan>& scans, const core::Isome
 /// motion of the window follows from its start by the IMU alone, every point depends on that start through the time it
 /// was seen at, and each voxel's plane (offset and two tilts) is eliminated from the points in it; so a point tells
 /// only what moves it against the others of its voxel. What the noise of the normals pretends to know is taken off, as
-/// in a registration. This is the bundle adjustment with eliminated planes of Liu and
-/// Zhang (BALM, RA-L 2021), for one start instead of many poses. The window grows as the start gets better known.
+/// in a registration. This is the bundle adjustment with eliminated planes of Liu and Zhang (BALM, RA-L 2021), for one
+/// start instead of many poses. The window grows as the start gets better known.
 /// @param prior  what is known without these points
 /// @return the start, level; nothing if the points do not suffice
 std::optional<StartState> alignedStart(const StartState& prior, const ImuBuffer& imu, core::TimeNs end,
