@@ -7,6 +7,7 @@
 #include "s2s/core/error.h"
 #include "s2s/eval/report_json.h"
 #include "s2s/eval/report_text.h"
+#include "s2s/eval/truth_folder.h"
 #include "s2s/eval/wall_report.h"
 #include "sample_survey.h"
 
@@ -139,6 +140,20 @@ TEST_F(TruthReportTest, DamagedTruth_IsRefused) {
   expectRefusal("object 2");
   std::filesystem::remove(folder_.path("truth/world.ply"));
   expectRefusal("no world.ply");
+}
+
+TEST_F(TruthReportTest, Rubble_IsGroundUnderWaterAndNoObjectToBeFound) {
+  const auto groundWith = [&](const std::string& kind) {
+    folder_.write("truth/objects.csv",
+                  "id,name,kind,material\n0,bed,seabed,sand\n1,quay,wall,stone\n2,blocks," + kind + ",stone\n");
+    return MeshQuery(readTruthFolder(survey_.truth()).groundUnderWater());
+  };
+  const double bed_m = SampleSurvey::seabedHeight(4.5, 5);
+  EXPECT_NEAR(groundWith("rubble").topHeight_m(4.5, 5).value(), SampleSurvey::kBoxTop, 1e-6);
+  EXPECT_TRUE(evaluate().objects.empty());
+  EXPECT_NEAR(groundWith("structure").topHeight_m(4.5, 5).value(), bed_m, 1e-6);
+  EXPECT_NEAR(groundWith("object").topHeight_m(4.5, 5).value(), SampleSurvey::kBoxTop, 1e-6);
+  EXPECT_EQ(evaluate().objects.size(), 1u);
 }
 
 TEST_F(TruthReportTest, TrajectoriesOfDifferentDays_AreRefused) {

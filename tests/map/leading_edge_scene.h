@@ -60,13 +60,15 @@ class LeadingEdgeScene {
     double nearest = std::numeric_limits<double>::infinity();
     for (int i = -200; i <= 200; ++i) {
       const Eigen::Vector3d direction =
-          T_map_sonar.linear() * sonar::pointAt({1.0, bearing_rad, 0.5 * kAperture_rad * i / 200}, model);
+          T_map_sonar.linear() * sonar::pointAt({1.0, bearing_rad, heardHalf_rad * i / 200}, model);
       nearest = std::min(nearest, range_m(T_map_sonar.translation(), direction));
     }
     return nearest;
   }
 
   static constexpr double kAperture_rad = 20.0 * M_PI / 180.0;
+  /// Up to which elevation an echo is heard; the pings claim the nominal half of the aperture all the same.
+  double heardHalf_rad = 0.5 * kAperture_rad;
   static constexpr double kMaxRange_m = 10.0;
 
  private:

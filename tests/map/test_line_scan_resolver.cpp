@@ -50,6 +50,7 @@ struct Survey {
   BearingModel model = BearingModel::Azimuth;
   double duration_s = 6;
   bool withVertical = true;
+  int beams = 64;  // of the horizontal sonar
 
   Isometry pose(double t) const { return T_start * isometryFromXyzYpr(t, 0, 0, 0, 0, 0); }
   void run(CSeabedSkyMap& map) {
@@ -59,7 +60,7 @@ struct Survey {
         map.insertLineScan(Layer::LineVertical, durationNs(t), pose(t),
                            scene.ping(pose(t), verticalMount(), kVerticalHalfFan, 256, model, 0.01));
       map.insertLineScan(Layer::LineHorizontal, durationNs(t), pose(t),
-                         scene.ping(pose(t), horizontalMount(), kHorizontalHalfFan, 64, model, 0.01));
+                         scene.ping(pose(t), horizontalMount(), kHorizontalHalfFan, beams, model, 0.01));
     }
   }
 };
@@ -134,6 +135,72 @@ TEST(LineScanResolver, FlatSeabedSurvey_BiasVanishes) {
     EXPECT_LT(std::abs(mean(heightErrors(resolved, Layer::LineVertical))), 0.014);
     EXPECT_GT(resolved.elevationSources(Layer::LineHorizontal)[static_cast<std::size_t>(ElevationSource::Seabed)],
               100u);
+  }
+}
+
+void checkThatTheEndIsLearnt(double beyond_deg, BearingModel model) {
+  Survey survey;
+  survey.model = model;
+  survey.beams = 256;  // a ping tells where at least five of its beams meet the profile
+  survey.duration_s = 12;
+  survey.scene.add(LeadingEdgeScene::seabed(kSeabed_m));
+  survey.scene.heardHalf_rad += beyond_deg * kDegree;
+  CSeabedSkyMap map(withElevation(LineElevation::Resolved));
+  survey.run(map);
+  map.resolveLineScans();
+  const auto& ends = map.apertureEnds();
+  // The profile knows the bed to the 4 mm that noise of 1 cm leaves of the mean of some returns: 0.15 degrees.
+  EXPECT_NEAR(ends[0].beyond_rad(), beyond_deg * kDegree, 0.15 * kDegree);
+  // 120 pings are 12 m of path, thus twelve that are independent, and the first of these counts with the prior's 2 deg.
+  EXPECT_LT(ends[0].sigma_rad(), 0.3 * kDegree);
+  EXPECT_GT(ends[0].sigma_rad(), 0);
+  EXPECT_EQ(ends[1].pings(), 0u);  // the upper edge meets nothing
+  EXPECT_LT(std::abs(mean(heightErrors(map, Layer::LineHorizontal))), 0.01);
+}
+
+TEST(LineScanResolver, BedHeardBeyondTheNominalAperture_EndIsLearntAndTheBiasVanishes) {
+  checkThatTheEndIsLearnt(0.8, BearingModel::Azimuth);
+}
+
+TEST(LineScanResolver, LastPartOfTheApertureSilent_EndIsLearntAndTheBiasVanishes) {
+  checkThatTheEndIsLearnt(-0.7, BearingModel::Cone);
+}
+
+TEST(LineScanResolver, NominalEndBelieved_BedHeardBeyondItIsTooHighByTheClosedForm) {
+  Survey survey;
+  survey.scene.add(LeadingEdgeScene::seabed(kSeabed_m));
+  survey.scene.heardHalf_rad += 0.8 * kDegree;
+  MapOptions options = withElevation(LineElevation::Resolved);
+  options.resolver.endSigma_rad = 0;
+  CSeabedSkyMap map(options);
+  survey.run(map);
+  // How far down a beam pitched 45 degrees goes in a metre, at an elevation below its imaging plane.
+  const auto down = [](double bearing_rad, double below_rad) {
+    return std::sqrt(0.5) * (std::cos(below_rad) * std::cos(bearing_rad) + std::sin(below_rad));
+  };
+  double expected = 0;
+  for (int beam = 0; beam < survey.beams; ++beam) {
+    const double bearing_rad = kHorizontalHalfFan * (2.0 * beam / (survey.beams - 1) - 1);
+    expected += kDepth_m * (1 - down(bearing_rad, 10 * kDegree) / down(bearing_rad, 10.8 * kDegree)) / survey.beams;
+  }
+  // Noise of 1 cm over 3840 returns is nothing; arcs whose gap is found at steps of 1.25 degrees make millimetres.
+  EXPECT_NEAR(mean(heightErrors(map, Layer::LineHorizontal)), expected, 0.005);
+}
+
+TEST(LineScanResolver, OnlyTheHorizontalSonar_TheNominalEndStands) {
+  Survey survey;
+  survey.withVertical = false;
+  survey.beams = 256;
+  survey.scene.add(LeadingEdgeScene::seabed(kSeabed_m));
+  survey.scene.heardHalf_rad += 0.8 * kDegree;
+  CSeabedSkyMap map(withElevation(LineElevation::Resolved));
+  survey.run(map);
+  map.resolveLineScans();
+  // Nobody else knows the bed: what the sonar made of its own arcs must not tell it where they end.
+  for (const ApertureEnd& end : map.apertureEnds()) {
+    EXPECT_EQ(end.pings(), 0u);
+    EXPECT_EQ(end.beyond_rad(), 0);
+    EXPECT_EQ(end.sigma_rad(), ResolverOptions().endSigma_rad);
   }
 }
 

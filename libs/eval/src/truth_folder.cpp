@@ -52,10 +52,10 @@ products::PlyMesh TruthFolder::partOfObject(int object) const {
   return partOf(world, [&](int candidate) { return candidate == object; });
 }
 
-products::PlyMesh TruthFolder::seabedWithObjects() const {
+products::PlyMesh TruthFolder::groundUnderWater() const {
   return partOf(world, [&](int object) {
     const std::string& kind = objects.at(object).kind;
-    return kind == "seabed" || kind == "object";
+    return kind == "seabed" || kind == "object" || kind == "rubble";
   });
 }
 

@@ -141,7 +141,7 @@ void measureLayers(const MapFolder& map, const TruthFolder& truth, const core::T
 void measureSeabed(const MapFolder& map, const TruthFolder& truth, const core::Trajectory& path,
                    const TruthOptions& options, TruthReport& report) {
   const auto grid = map.seabed();
-  products::PlyMesh surface = truth.seabedWithObjects();
+  products::PlyMesh surface = truth.groundUnderWater();
   if (!grid)
     report.notes.emplace_back("seabed: no seabed.tif in the map folder");
   else if (surface.triangles.empty())

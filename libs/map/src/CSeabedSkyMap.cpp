@@ -113,6 +113,7 @@ std::size_t CSeabedSkyMap::store(const ScanPose& pose, const std::vector<ScanPoi
 std::size_t CSeabedSkyMap::store(const ScanPose& pose, const LineScan& scan) {
   StoredLineScan stored = toStored(pose, scan);
   if (stored.returns.empty()) return 0;
+  if (options_.insertion.lineElevation == LineElevation::Resolved) resolver_.observeEnds(stored, mapPose(stored.pose));
   resolve(stored);
   countReturns(stored);
   enterIntoSurface(stored);
@@ -152,6 +153,8 @@ void CSeabedSkyMap::resolveLineScans() {
   // again, now that all evidence is there.
   for (StoredLineScan& scan : lineScans_)
     if (scan.pose.layer == Layer::LineVertical) resolve(scan);
+  if (options_.insertion.lineElevation == LineElevation::Resolved)
+    for (const StoredLineScan& scan : lineScans_) resolver_.observeEnds(scan, mapPose(scan.pose));
   for (StoredLineScan& scan : lineScans_)
     if (scan.pose.layer != Layer::LineVertical) resolve(scan);
   if (options_.insertion.lineElevation == LineElevation::Resolved)

@@ -44,6 +44,15 @@ struct Arc {
   std::vector<Eigen::Vector3d> p_map;
 };
 
+/// Elevations at which a sonar's aperture ends, `beyond` the nominal ones.
+struct Aperture {
+  double low_rad = 0, high_rad = 0;
+  double sigma_rad = 0;  ///< how well the ends are known, sharpness of the edge not counted
+
+  explicit Aperture(const StoredLineScan& scan)
+      : low_rad(-0.5 * scan.verticalAperture_rad), high_rad(0.5 * scan.verticalAperture_rad) {}
+};
+
 /// Index of the least known gap; nothing if none is known.
 std::optional<std::size_t> leastGap(const std::vector<Gap>& gaps) {
   std::optional<std::size_t> least;
@@ -144,16 +153,16 @@ std::optional<Decision> crossing(const Arc& arc, const std::vector<Gap>& gaps, s
 /// Elevation of the lowest point of the arc within the aperture, in closed form.
 ///
 /// The arc is a circle, centre + radius (in_plane cos psi + z_axis sin psi); its height is least where psi points down.
-double lowestElevation(const StoredLineScan& scan, const core::Isometry& T_map_sonar, double bearing_rad) {
+double lowestElevation(const StoredLineScan& scan, const Aperture& aperture, const core::Isometry& T_map_sonar,
+                       double bearing_rad) {
   const bool isCone = scan.bearingModel == obs::BearingModel::Cone;
   const Eigen::Vector3d inPlane(isCone ? 1 : std::cos(bearing_rad), isCone ? 0 : std::sin(bearing_rad), 0);
   const double up_inPlane = T_map_sonar.linear().row(2).dot(inPlane), up_z = T_map_sonar.linear()(2, 2);
   const double psi = std::atan2(-up_z, -up_inPlane);
-  const double half = 0.5 * scan.verticalAperture_rad;
   const double elevation = isCone ? std::asin(std::abs(std::cos(bearing_rad)) * std::sin(psi)) : psi;
-  if (std::abs(psi) <= M_PI / 2 && std::abs(elevation) <= half) return elevation;
+  if (std::abs(psi) <= M_PI / 2 && elevation >= aperture.low_rad && elevation <= aperture.high_rad) return elevation;
   // Height is monotonic over the aperture then: one of its edges is the lowest.
-  return up_z > 0 ? -half : half;
+  return up_z > 0 ? aperture.low_rad : aperture.high_rad;
 }
 
 /// Anywhere between two elevations, most likely at `place_rad`.
@@ -190,17 +199,21 @@ class PingResolver {
     const FreeSpace* free;  ///< null: not asked
   };
 
-  PingResolver(const Evidence& evidence, const ResolverOptions& options, const StoredLineScan& scan,
-               const core::Isometry& T_map_vehicle)
-      : evidence_(evidence), options_(options), scan_(scan), T_map_sonar_(T_map_vehicle * scan.T_vehicle_sonar) {
+  PingResolver(const Evidence& evidence, const ResolverOptions& options, const Aperture& aperture,
+               const StoredLineScan& scan, const core::Isometry& T_map_vehicle)
+      : evidence_(evidence),
+        options_(options),
+        aperture_(aperture),
+        scan_(scan),
+        T_map_sonar_(T_map_vehicle * scan.T_vehicle_sonar) {
     const auto steps = static_cast<std::size_t>(std::max(3, options.arcSteps));
     arc_.elevation_rad.resize(steps);
     arc_.p_map.resize(steps);
     seabedGaps_.resize(steps);
     wallGaps_.resize(steps);
     for (std::size_t i = 0; i < steps; ++i)
-      arc_.elevation_rad[i] =
-          scan.verticalAperture_rad * (static_cast<double>(i) / static_cast<double>(steps - 1) - 0.5);
+      arc_.elevation_rad[i] = aperture.low_rad + (aperture.high_rad - aperture.low_rad) * static_cast<double>(i) /
+                                                     static_cast<double>(steps - 1);
   }
 
   Decision decide(const PackedReturn& r) {
@@ -211,7 +224,7 @@ class PingResolver {
       return wall ? *wall : between(arc_.elevation_rad.front(), arc_.elevation_rad.back(), 0, r.range_m);
     }
     const std::optional<Decision> seabed = meetSeabed(rangeSigma_m);
-    const double lowest_rad = lowestElevation(scan_, T_map_sonar_, r.bearing_rad);
+    const double lowest_rad = lowestElevation(scan_, aperture_, T_map_sonar_, r.bearing_rad);
     if (!seabed && isOwnSeabed(r, lowest_rad, rangeSigma_m)) return lowestPoint(lowest_rad);
     const std::optional<Decision> wall = meetWall(rangeSigma_m);
     if (seabed && wall) return seabed->misfit <= wall->misfit ? *seabed : *wall;
@@ -231,7 +244,7 @@ class PingResolver {
   }
 
   bool isAtEdge(double elevation_rad) const {
-    return 0.5 * scan_.verticalAperture_rad - std::abs(elevation_rad) < options_.edgeSigma_rad;
+    return std::min(elevation_rad - aperture_.low_rad, aperture_.high_rad - elevation_rad) < options_.edgeSigma_rad;
   }
 
   /// Other arcs of this sonar have met the seabed there, and nowhere else along this arc. The latter matters at the
@@ -257,7 +270,7 @@ class PingResolver {
     decision.elevation_rad = lowest_rad;
     decision.source = ElevationSource::LowestPoint;
     decision.offSurface_m = options_.relief_m;
-    if (isAtEdge(lowest_rad)) decision.halfSpread_rad = options_.edgeSigma_rad;
+    if (isAtEdge(lowest_rad)) decision.halfSpread_rad = std::hypot(options_.edgeSigma_rad, aperture_.sigma_rad);
     return decision;
   }
 
@@ -362,12 +375,42 @@ class PingResolver {
 
   const Evidence evidence_;
   const ResolverOptions& options_;
+  const Aperture aperture_;
   const StoredLineScan& scan_;
   const core::Isometry T_map_sonar_;
   Arc arc_;
   std::vector<Gap> seabedGaps_, wallGaps_;
   double wallSigma_m_ = 0;  // of the wall met last
 };
+
+/// How far beyond the nominal end of the aperture, on the side of `sign`, a return's arc meets the known seabed coming
+/// from the free side; nothing if it does not, if it meets it flatly, or if a seabed higher up is nearer.
+std::optional<double> seabedBeyond(const SurfaceEvidence& seabed, const StoredLineScan& scan, const PackedReturn& r,
+                                   const core::Isometry& T_map_sonar, double sign) {
+  constexpr double kStep_rad = 0.02;
+  constexpr double kLeastSlope = 0.25;  // of the arc against the seabed
+  const double end_rad = 0.5 * scan.verticalAperture_rad;
+  const auto gap = [&](double beyond_rad) -> std::optional<double> {
+    const Eigen::Vector3d p =
+        T_map_sonar *
+        sonar::pointAt({r.range_m, r.bearing_rad, sign * std::min(end_rad + beyond_rad, M_PI / 2)}, scan.bearingModel);
+    const auto known = seabed.seabedAt(p.x(), p.y());
+    return known ? std::optional<double>(p.z() - known->height_m) : std::nullopt;
+  };
+  for (const double further : {0.0, 0.5})
+    if (const auto above = gap((further - 1) * end_rad); above && *above <= 0) return std::nullopt;
+  std::optional<double> last = gap(-ApertureEnd::kReach_rad);
+  for (double at = -ApertureEnd::kReach_rad + kStep_rad; last && *last > 0; at += kStep_rad) {
+    if (at > ApertureEnd::kReach_rad + kStep_rad) return std::nullopt;
+    const auto here = gap(at);
+    if (here && *here <= 0) {
+      if (*last - *here < kLeastSlope * kStep_rad * r.range_m) return std::nullopt;
+      return at - kStep_rad + kStep_rad * *last / (*last - *here);
+    }
+    last = here;
+  }
+  return std::nullopt;
+}
 
 }  // namespace
 
@@ -377,12 +420,34 @@ void LineScanResolver::reset(const ResolverOptions& options) {
   profiles_.reset(options);
   swaths_.reset(options);
   free_.clear();
+  ends_.fill(ApertureEnd(options.endSigma_rad));
 }
 
 void LineScanResolver::addStereoPoint(const Eigen::Vector3d& p_map, double sigma_m) {
   profiles_.addSeabedPoint(p_map, sigma_m);
   swaths_.addSeabedPoint(p_map, sigma_m);
   walls_.addWallPoint(p_map);
+}
+
+void LineScanResolver::observeEnds(const StoredLineScan& scan, const core::Isometry& T_map_vehicle) {
+  constexpr double kSpacing_m = 0.1;  // pings nearer to each other tell the same
+  constexpr double kAtEnd_rad = 1e-6;
+  if (scan.pose.layer != Layer::LineHorizontal || options_.endSigma_rad <= 0) return;
+  const core::Isometry T_map_sonar = T_map_vehicle * scan.T_vehicle_sonar;
+  const bool isFirst = ends_[0].pings() + ends_[1].pings() == 0;
+  if (!isFirst && (T_map_sonar.translation() - lastObserved_m_).norm() < kSpacing_m) return;
+  lastObserved_m_ = T_map_sonar.translation();
+  const Aperture nominal(scan);
+  std::array<std::vector<double>, 2> beyond_rad;
+  for (const PackedReturn& r : scan.returns) {
+    if (r.order > 0) continue;
+    const double lowest_rad = lowestElevation(scan, nominal, T_map_sonar, r.bearing_rad);
+    if (std::min(lowest_rad - nominal.low_rad, nominal.high_rad - lowest_rad) > kAtEnd_rad) continue;
+    const bool isHigh = lowest_rad > 0;
+    if (const auto beyond = seabedBeyond(profiles_, scan, r, T_map_sonar, isHigh ? 1 : -1))
+      beyond_rad[isHigh ? 1 : 0].push_back(*beyond);
+  }
+  for (std::size_t side = 0; side < ends_.size(); ++side) ends_[side].addPing(std::move(beyond_rad[side]));
 }
 
 void LineScanResolver::addLineScan(const StoredLineScan& scan, const core::Isometry& T_map_vehicle) {
@@ -403,7 +468,15 @@ void LineScanResolver::addLineScan(const StoredLineScan& scan, const core::Isome
 void LineScanResolver::resolve(StoredLineScan& scan, const core::Isometry& T_map_vehicle, Pass pass) const {
   const bool isVertical = scan.pose.layer == Layer::LineVertical;
   const SurfaceEvidence &others = isVertical ? swaths_ : profiles_, &own = isVertical ? profiles_ : swaths_;
-  PingResolver ping({others, own, walls_, pass == Pass::Final ? &free_ : nullptr}, options_, scan, T_map_vehicle);
+  Aperture aperture(scan);
+  if (scan.pose.layer == Layer::LineHorizontal) {
+    aperture.low_rad -= ends_[0].beyond_rad();
+    aperture.high_rad += ends_[1].beyond_rad();
+    for (const ApertureEnd& end : ends_)
+      if (end.pings() > 0) aperture.sigma_rad = std::max(aperture.sigma_rad, end.sigma_rad());
+  }
+  PingResolver ping({others, own, walls_, pass == Pass::Final ? &free_ : nullptr}, options_, aperture, scan,
+                    T_map_vehicle);
   for (PackedReturn& r : scan.returns) apply(ping.decide(r), scan.bearingSigma_rad, r);
 }
 

@@ -44,6 +44,10 @@ core::OptionTable optionTable(ResolverOptions& o) {
       .add("arc_steps", o.arcSteps, "places tried along an arc", core::Range{3, 1001})
       .addDegrees("edge_sigma_deg", o.edgeSigma_rad, "how sharp the edge of an aperture is: standard deviation",
                   core::Range{0, 20})
+      .addDegrees("end_sigma_deg", o.endSigma_rad,
+                  "how far the end of the horizontal sonar's aperture may be from the nominal one, before the survey "
+                  "tells: standard deviation; 0 believes the nominal end",
+                  core::Range{0, 20})
       .add("relief_m", o.relief_m, "unevenness of a surface within a footprint: standard deviation", core::atLeast(0))
       .add("free_pings", o.freePings, "so many pings must agree that a place is free", core::Range{1, 1000})
       .add("free_margin_m", o.freeMargin_m, "a place is free if it lies this far in front of a ping's return",

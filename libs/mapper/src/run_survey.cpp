@@ -1,6 +1,7 @@
 #include "s2s/mapper/run_survey.h"
 
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <thread>
@@ -92,6 +93,16 @@ void addSonarFigures(const graph::GraphStatistics& statistics, products::RunSumm
   summary.figures.emplace_back("sonar_factors", statistics.sonarAccepted);
 }
 
+/// Where the horizontal sonar's aperture was found to end, by the side that met the bed more often.
+void addApertureFigures(const map::CSeabedSkyMap& map, products::RunSummary& summary) {
+  const auto& [low, high] = map.apertureEnds();
+  const map::ApertureEnd& end = low.pings() >= high.pings() ? low : high;
+  if (end.pings() == 0) return;
+  constexpr double kDegree = M_PI / 180;
+  summary.figures.emplace_back("sonar_aperture_beyond_nominal_deg", end.beyond_rad() / kDegree);
+  summary.figures.emplace_back("sonar_aperture_beyond_nominal_sigma_deg", end.sigma_rad() / kDegree);
+}
+
 void addRelocation(const SurveyRun& run, const graph::RelocationReport& report, products::RunSummary& summary) {
   if (!report.wanted) return;
   products::PriorMapSummary& prior = summary.priorMap.emplace();
@@ -136,6 +147,7 @@ products::RunSummary summarize(const SurveyRun& run, const SurveyConfig& config,
     summary.latencies.push_back({l.name, l.count, l.median_s, l.p95_s, l.max_s});
   addClosureFigures(mapper.graph().loopClosures(), summary);
   addSonarFigures(mapper.graph().statistics(), summary);
+  addApertureFigures(mapper.map(), summary);
   summary.effectiveIni = printSurveyConfig(config);
   return summary;
 }

@@ -22,6 +22,8 @@ const char* kindName(ObjectKind kind) {
       return "object";
     case ObjectKind::Target:
       return "target";
+    case ObjectKind::Rubble:
+      return "rubble";
   }
   return "?";
 }

@@ -292,7 +292,8 @@ SceneObject loadObject(IniFile& ini, const std::string& section, const Scene& sc
                   {"vegetation", ObjectKind::Vegetation},
                   {"ground", ObjectKind::Ground},
                   {"object", ObjectKind::Object},
-                  {"target", ObjectKind::Target}},
+                  {"target", ObjectKind::Target},
+                  {"rubble", ObjectKind::Rubble}},
                  "class in objects.csv")
       .add("material", material, "name of a built-in material or of a section [material.NAME]")
       .load(ini, section);

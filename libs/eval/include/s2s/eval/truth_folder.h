@@ -25,8 +25,8 @@ struct TruthFolder {
   products::PlyMesh partOfKind(const std::string& kind) const;
   /// The part that is one object.
   products::PlyMesh partOfObject(int object) const;
-  /// The ground under water: seabed and the objects that lie on it.
-  products::PlyMesh seabedWithObjects() const;
+  /// The ground under water: seabed, rubble, and the objects that lie on it.
+  products::PlyMesh groundUnderWater() const;
 };
 
 /// Reads trajectory.tum, world.ply and objects.csv.

@@ -92,6 +92,8 @@ class CSeabedSkyMap : public mrpt::maps::CMetricMap {
   const SurfaceEstimator& surface() const { return surface_; }
   /// The walls that sonars have met, likewise.
   const WallEstimator& walls() const { return walls_; }
+  /// Where the aperture of the horizontal sonar ends as the survey tells, at negative and at positive elevations.
+  const std::array<ApertureEnd, 2>& apertureEnds() const { return resolver_.ends(); }
   /// Number of line-scan points by the way their elevation was decided.
   std::array<std::size_t, kElevationSources> elevationSources(Layer layer) const;
   /// Bytes that the points take.

@@ -2,7 +2,10 @@
 
 #include <Eigen/Core>
 
+#include <array>
+
 #include "s2s/core/transform.h"
+#include "s2s/map/aperture_end.h"
 #include "s2s/map/free_space.h"
 #include "s2s/map/options.h"
 #include "s2s/map/scan.h"
@@ -25,6 +28,8 @@ namespace s2s::map {
 ///
 /// For a return behind the first the space in front is not free; it is a point only if a known wall explains it.
 ///
+/// Where the aperture of the horizontal sonar ends is learnt from the survey (`observeEnds`).
+///
 /// The standard deviation is that of the distance from the surface: of range and bearing, and along the arc of the
 /// elevations that would have done as well. Where the arc touches the surface inside the aperture it is tangent to it:
 /// a wrong elevation then moves the point along the surface.
@@ -40,6 +45,11 @@ class LineScanResolver {
   void addWallPoint(const Eigen::Vector3d& p_map) { walls_.addWallPoint(p_map); }
   /// The wall known at a place, see SurfaceEvidence.
   std::optional<SurfaceEvidence::Wall> wallNear(double x_m, double y_m) const { return walls_.wallNear(x_m, y_m); }
+  /// Learns from a ping of the horizontal sonar where its aperture ends: where the seabed is known from stereo and the
+  /// vertical sonar. The ends of the vertical sonar lie at its sides, which hardly meet anything first: they stay.
+  void observeEnds(const StoredLineScan& scan, const core::Isometry& T_map_vehicle);
+  /// The ends of the horizontal sonar's aperture, at negative and at positive elevations.
+  const std::array<ApertureEnd, 2>& ends() const { return ends_; }
   /// A resolved ping. What one sonar saw is evidence for the other, never for itself: it would only agree with itself.
   void addLineScan(const StoredLineScan& scan, const core::Isometry& T_map_vehicle);
 
@@ -56,6 +66,8 @@ class LineScanResolver {
   SurfaceEvidence profiles_;  // seabed by stereo and the vertical sonar, for the horizontal one
   SurfaceEvidence swaths_;    // seabed by stereo and the horizontal sonar, for the vertical one
   FreeSpace free_;
+  std::array<ApertureEnd, 2> ends_;
+  Eigen::Vector3d lastObserved_m_ = Eigen::Vector3d::Zero();  // where the last ping was taken that told of the ends
 };
 
 }  // namespace s2s::map

@@ -47,10 +47,13 @@ struct ResolverOptions {
   double surfaceRoughness_m = 0.05;  ///< standard deviation added to every surface when an arc is compared with it
   int arcSteps = 17;                 ///< places tried along an arc
   double edgeSigma_rad = 0.5 * M_PI / 180.0;  ///< how sharp the edge of the aperture is
-  double relief_m = 0.03;                     ///< unevenness of a surface within a footprint
-  int freePings = 3;                          ///< so many pings must agree that a place is free
-  double freeMargin_m = 0.15;                 ///< and it must lie this far in front of their returns
-  double resolvedLength_m = 0.3;              ///< a shorter part of an arc counts as one place
+  /// How far the end of the horizontal sonar's aperture may be from the nominal one (standard deviation): the
+  /// brightness of the bed decides, and the survey tells, see ApertureEnd. 0 believes the nominal end.
+  double endSigma_rad = 2 * M_PI / 180;
+  double relief_m = 0.03;         ///< unevenness of a surface within a footprint
+  int freePings = 3;              ///< so many pings must agree that a place is free
+  double freeMargin_m = 0.15;     ///< and it must lie this far in front of their returns
+  double resolvedLength_m = 0.3;  ///< a shorter part of an arc counts as one place
 };
 
 struct LikelihoodOptions {

@@ -19,8 +19,8 @@ struct Material {
   bool retro = false;         ///< retro-reflective foil: far above 1 in the direction of the source
 };
 
-/// What an object is, as `objects.csv` names it.
-enum class ObjectKind { Seabed, Wall, Structure, Vessel, Vegetation, Ground, Object, Target };
+/// What an object is, as `objects.csv` names it. Rubble is stone heaped on the seabed: the bed of who sails there.
+enum class ObjectKind { Seabed, Wall, Structure, Vessel, Vegetation, Ground, Object, Target, Rubble };
 const char* kindName(ObjectKind kind);
 
 struct SceneObject {
