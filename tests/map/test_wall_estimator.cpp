@@ -80,6 +80,52 @@ TEST(WallEstimator, Bulge_IsFoundWhereItIsAndAsLargeAsItIs) {
   EXPECT_LT(rest_m / rest, 0.015);
 }
 
+/// A wall with the LiDAR's and the sonar's points; the sonar sees the middle of a profile that the LiDAR resolves, and
+/// the LiDAR's part of the wall stands back by a step.
+std::vector<WallEstimator::Cell> sonarCells(double profile_m, double step_m) {
+  const auto profile = [&](double x) { return profile_m * std::sin(2 * M_PI * x / 1.2); };
+  WallEstimator walls;
+  learnWall(walls);
+  for (auto p : wallPoints(800, 0, 11, Layer::Lidar)) {
+    p.p_map += Eigen::Vector3d(0, profile(p.p_map.x()) + step_m, 4);
+    walls.add(p);
+  }
+  for (const auto& p : wallPoints(400, 0, 12)) walls.add(p);
+  std::vector<WallEstimator::Cell> cells;
+  for (const auto& cell : cellsOf(walls))
+    if (cell.bySonar) cells.push_back(cell);
+  return cells;
+}
+
+double meanSigma(const std::vector<WallEstimator::Cell>& cells) {
+  double sum = 0;
+  for (const auto& cell : cells) sum += cell.sigma_m / static_cast<double>(cells.size());
+  return sum;
+}
+
+TEST(WallEstimator, ProfileThatOnlyTheLidarResolves_SonarsSigmaSaysSo) {
+  constexpr double kProfile_m = 0.15;
+  const auto cells = sonarCells(kProfile_m, 0);
+  ASSERT_GT(cells.size(), 600u);
+  std::size_t held = 0;
+  for (const auto& cell : cells) {
+    const double x = cell.p_map.x(), truth = faceOf(x, 0) + kProfile_m * std::sin(2 * M_PI * x / 1.2);
+    held += std::abs(cell.p_map.y() - truth) <= 2 * cell.sigma_m ? 1 : 0;
+  }
+  // A sine's deviation is never more than 1.41 of its standard deviation.
+  EXPECT_GT(static_cast<double>(held), 0.95 * static_cast<double>(cells.size()));
+  // No more than the profile: its root mean square, less by what cells of 0.25 m average, and the noise.
+  EXPECT_LT(meanSigma(cells), std::hypot(kProfile_m / std::sqrt(2.0), kNoise_m) + 0.01);
+}
+
+TEST(WallEstimator, PlainWall_TheLidarAddsNothingToTheSonarsSigma) {
+  EXPECT_NEAR(meanSigma(sonarCells(0, 0)), kNoise_m, 0.003);
+}
+
+TEST(WallEstimator, PlainWallWithAStepAtTheWater_IsNoProfile) {
+  EXPECT_NEAR(meanSigma(sonarCells(0, 0.2)), kNoise_m, 0.004);
+}
+
 TEST(WallEstimator, WhatWasTakenOutAgain_LeavesNoTrace) {
   WallEstimator plain, changed;
   learnWall(plain);

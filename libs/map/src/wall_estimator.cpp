@@ -21,6 +21,9 @@ constexpr std::int32_t kRows = 4096;
 constexpr int kApart_cm = 30;
 /// Cells whose faces differ by more are not of one plane.
 constexpr double kSamePlane_m = 0.5;
+/// How far along a wall its profile is looked for that the sonar does not resolve, and cells or places that show it.
+constexpr double kProfileReach_m = 2;
+constexpr std::size_t kMinProfile = 4;
 
 Eigen::Vector2d directionOf(std::int32_t sector) {
   const double azimuth_rad = 2 * M_PI * sector / kSectors;
@@ -32,6 +35,7 @@ Eigen::Vector2d alongOf(const Eigen::Vector2d& direction) { return {-direction.y
 /// A cell before its offset is known.
 struct Face {
   double along_m = 0, distance_m = 0;
+  double sigma_m = 0;  ///< by the cell's own points
   WallEstimator::Cell cell;
 };
 using Faces = std::vector<Face>;  ///< of one sector
@@ -49,7 +53,7 @@ void addFaces(const SurfaceColumn& column, const WallSurfaceOptions& options, co
     Face face = blank;
     const SurfaceMiddle middle = middleOf(bins, column.pings);
     face.distance_m = middle.value_m;
-    face.cell.sigma_m = middle.sigma_m;
+    face.sigma_m = face.cell.sigma_m = middle.sigma_m;
     face.cell.count = totalCount(bins);
     face.cell.p_map.head<2>() += middle.value_m * direction;
     faces.push_back(face);
@@ -77,6 +81,75 @@ void setOffsets(Faces& faces, double reach_m) {
     const double determinant = n * ss - s * s;
     // The line's value here; without extent along the wall it is the mean.
     here.cell.offset_m = determinant > 1e-9 ? -(d * ss - s * sd) / determinant : -d / n;
+  }
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+double variance(const std::vector<double>& values) {
+  const double middle = mean(values);
+  double sum = 0;
+  for (const double value : values) sum += (value - middle) * (value - middle);
+  return sum / static_cast<double>(values.size() - 1);
+}
+
+/// Variance of values about their line over a place; the direction of a sector is not quite that of its walls.
+double varianceAboutLine(const std::vector<double>& places, const std::vector<double>& values) {
+  const double place = mean(places), value = mean(values);
+  double pp = 0, pv = 0, vv = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double p = places[i] - place, v = values[i] - value;
+    pp += p * p;
+    pv += p * v;
+    vv += v * v;
+  }
+  return std::max(0.0, vv - (pp > 0 ? pv * pv / pp : 0)) / static_cast<double>(values.size() - 1);
+}
+
+/// What the sonar's cells around one do not show of the profile that the LiDAR's show above them.
+///
+/// The variance of their differences, of one place along the wall each, as far as the cells' own sigmas do not explain
+/// it, and the square of their mean, since the sonar's line may go anywhere through a profile. The mean counts up to
+/// the profile's own depth only: a wall may as well have a step at the water. Without enough pairs, that depth counts
+/// alone.
+double unresolvedVariance(const Faces& faces, std::size_t begin, std::size_t end, const Face& here) {
+  std::vector<double> differences_m, claimed, profile_m, places_m;
+  for (std::size_t i = begin; i < end;) {
+    std::size_t next = i;
+    std::vector<double> lidar_m;
+    for (; next < end && faces[next].along_m == faces[i].along_m; ++next)
+      if (!faces[next].cell.bySonar && std::abs(faces[next].distance_m - here.distance_m) <= kSamePlane_m)
+        lidar_m.push_back(faces[next].distance_m);
+    if (!lidar_m.empty()) {
+      profile_m.push_back(mean(lidar_m));
+      places_m.push_back(faces[i].along_m);
+    }
+    for (; i < next; ++i) {
+      const Face& face = faces[i];
+      if (lidar_m.empty() || !face.cell.bySonar || std::abs(face.distance_m - here.distance_m) > kSamePlane_m) continue;
+      differences_m.push_back(face.distance_m - profile_m.back());
+      claimed.push_back(face.sigma_m * face.sigma_m);
+    }
+  }
+  const double depth2 = profile_m.size() >= kMinProfile ? varianceAboutLine(places_m, profile_m) : 0;
+  if (differences_m.size() < kMinProfile) return depth2;
+  const double middle_m = mean(differences_m);
+  return std::max(0.0, variance(differences_m) - mean(claimed)) + std::min(middle_m * middle_m, depth2);
+}
+
+/// A sonar's ridge is straight over some degrees of bearing: where the wall has a profile it goes through the middle of
+/// it, and all pings agree on that. So the cells' scatter does not tell, and the LiDAR's view of the wall has to.
+void addUnresolvedProfile(Faces& faces) {
+  std::size_t begin = 0, end = 0;
+  for (Face& here : faces) {
+    while (faces[begin].along_m < here.along_m - kProfileReach_m) ++begin;
+    while (end < faces.size() && faces[end].along_m <= here.along_m + kProfileReach_m) ++end;
+    if (here.cell.bySonar)
+      here.cell.sigma_m = std::sqrt(here.sigma_m * here.sigma_m + unresolvedVariance(faces, begin, end, here));
   }
 }
 
@@ -155,6 +228,7 @@ void WallEstimator::forEachCell(const std::function<void(const Cell&)>& visit) c
   });
   for (auto& [sector, faces] : sectors) {
     setOffsets(faces, options_.planeReach_m);
+    addUnresolvedProfile(faces);
     for (const Face& face : faces) visit(face.cell);
   }
 }

@@ -38,7 +38,9 @@ class WallEstimator {
     Eigen::Vector3d p_map = Eigen::Vector3d::Zero();        ///< middle of the cell, on the estimated face
     Eigen::Vector2d outward_map = Eigen::Vector2d::Zero();  ///< horizontal normal towards where the wall was seen from
     double offset_m = 0;                                    ///< out of the wall's plane, positive outward: a bulge
-    double sigma_m = 0;                                     ///< as in SurfaceEstimator: of what a single ping tells
+    /// As in SurfaceEstimator: of what a single ping tells; of a sonar's cell also of the profile around it that the
+    /// LiDAR shows and the sonar does not resolve.
+    double sigma_m = 0;
     std::uint32_t count = 0;
     bool bySonar = false;  ///< else by the LiDAR
   };
