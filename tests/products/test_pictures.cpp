@@ -265,6 +265,61 @@ TEST(DrawGrid, EmptyCellsStayPaper) {
   EXPECT_EQ(cv::norm(difference(cv::Rect(260, middle, 80, 20)), cv::NORM_L1), 0);
 }
 
+/// A wall to the left of a survey along x, 20 m by 4 m; its upper half stands out of its plane.
+std::vector<map::WallEstimator::Cell> wallToTheLeft(double out_m) {
+  std::vector<map::WallEstimator::Cell> cells;
+  for (double x = -9.875; x < 10; x += 0.25)
+    for (double z = -1.875; z < 2; z += 0.25) {
+      map::WallEstimator::Cell cell;
+      cell.p_map = {x, 5, z};
+      cell.outward_map = {0, -1};
+      cell.offset_m = z > 0 ? out_m : -out_m;
+      cell.bySonar = z < 0;
+      cells.push_back(cell);
+    }
+  return cells;
+}
+
+TEST(DrawWalls, FacesThatStandOutAreRedAboveThoseBehindInBlue) {
+  const cv::Mat image = drawWalls(wallToTheLeft(0.1), 0.25, {}, {}, 800, 400);
+  ASSERT_EQ(image.cols, 800);
+  double redRow = 0, blueRow = 0, red = 0, blue = 0;
+  for (int row = 0; row < image.rows - 76; ++row)  // the legend has both
+    for (int column = 0; column < image.cols; ++column) {
+      const auto bgr = image.at<cv::Vec3b>(row, column);
+      if (bgr[2] > bgr[0] + 80) redRow += row, ++red;
+      if (bgr[0] > bgr[2] + 80) blueRow += row, ++blue;
+    }
+  // 20 m over 706 px, so that 2 m are 71 px without exaggeration: each half fills at least that.
+  EXPECT_GT(red, 706 * 60);
+  EXPECT_GT(blue, 706 * 60);
+  EXPECT_LT(redRow / red, blueRow / blue);
+}
+
+TEST(DrawWalls, WallsOnTwoSides_HaveAPanelEachAndNoneIsNoFault) {
+  const auto redBands = [](const std::vector<map::WallEstimator::Cell>& cells) {
+    const cv::Mat image = drawWalls(cells, 0.25, {}, {}, 800, 400);
+    int bands = 0;
+    bool was = false;
+    for (int row = 0; row < image.rows - 76; ++row) {
+      const auto bgr = image.at<cv::Vec3b>(row, 300);
+      const bool is = bgr[2] > bgr[0] + 80;
+      bands += is && !was ? 1 : 0;
+      was = is;
+    }
+    return bands;
+  };
+  auto cells = wallToTheLeft(0.1);
+  EXPECT_EQ(redBands(cells), 1);
+  for (auto cell : wallToTheLeft(0.1)) {
+    cell.p_map.y() = -5;
+    cell.outward_map = {0, 1};
+    cells.push_back(cell);
+  }
+  EXPECT_EQ(redBands(cells), 2);
+  EXPECT_EQ(redBands({}), 0);
+}
+
 TEST(WritePicture, PngReadsBack) {
   const TempFolder folder;
   cv::Mat image(20, 30, CV_8UC3, cv::Scalar(10, 20, 30));

@@ -157,12 +157,12 @@ class Writing {
 
   void writeWalls() {
     if (!walls_ || !options_.walls) return;
-    const auto cells = wallCells(*walls_);
-    if (cells.empty()) return;
-    const WallStatistics statistics = wallStatistics(cells, walls_->options().cell_m);
+    wallCells_ = wallCells(*walls_);
+    if (wallCells_.empty()) return;
+    const WallStatistics statistics = wallStatistics(wallCells_, walls_->options().cell_m);
     result_.summary.figures.emplace_back("wall_area_by_lidar_m2", statistics.lidarArea_m2);
     result_.summary.figures.emplace_back("wall_area_by_sonar_m2", statistics.sonarArea_m2);
-    file("walls.ply", [&](const auto& path) { writeWallPly(path, cells); });
+    file("walls.ply", [&](const auto& path) { writeWallPly(path, wallCells_); });
   }
 
   MapColours colours() const {
@@ -257,6 +257,14 @@ class Writing {
       out.push_back({"Seabed grid", "Median depths in cells of the map frame, with relief shading; white: no height.",
                      "image/png",
                      encode(drawGrid(grid_, datum_, options_.pictures.width_px, options_.pictures.height_px), ".png")});
+    if (!wallCells_.empty())
+      out.push_back({"Walls",
+                     "Their faces as in walls.ply, upright and seen from the survey: blue where a face lies behind the "
+                     "plane of its wall, red where it stands out.",
+                     "image/png",
+                     encode(drawWalls(wallCells_, walls_->options().cell_m, SurveyFrame(trajectories_.optimised, {}),
+                                      datum_, options_.pictures.width_px, options_.pictures.height_px),
+                            ".png")});
     out.push_back({"Cross section", "A slab across the survey, where LiDAR and sonar see most together.", "image/png",
                    encode(pictures_->crossSection(), ".png")});
     out.push_back({"Long section", "A slab along the survey, through the middle of the path.", "image/png",
@@ -279,6 +287,7 @@ class Writing {
   std::unique_ptr<map::SurfaceEstimator> ownSurface_;  ///< if none was given
   CrossSectionFinder crossSection_;
   HeightGrid grid_;
+  std::vector<map::WallEstimator::Cell> wallCells_;
   std::unique_ptr<MapPictures> pictures_;
   ProductsResult result_;
 };

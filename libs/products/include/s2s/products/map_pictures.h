@@ -3,9 +3,11 @@
 #include <memory>
 #include <opencv2/core.hpp>
 #include <string>
+#include <vector>
 
 #include "s2s/core/trajectory.h"
 #include "s2s/map/map_point.h"
+#include "s2s/map/wall_estimator.h"
 #include "s2s/products/cloud_statistics.h"
 #include "s2s/products/height_datum.h"
 #include "s2s/products/height_grid.h"
@@ -51,5 +53,11 @@ class MapPictures {
 
 /// The seabed grid as depths below the datum with relief shading, axes in metres of the map frame.
 cv::Mat drawGrid(const HeightGrid& grid, const HeightDatum& datum, int width_px, int height_px);
+
+/// The faces of walls, upright and seen from the survey: a panel for each of its four sides that has walls, with each
+/// cell coloured by how far it stands out of its wall's plane. The width is kept, the height follows from the panels.
+/// @param cell_m edge of a cell
+cv::Mat drawWalls(const std::vector<map::WallEstimator::Cell>& cells, double cell_m, const SurveyFrame& frame,
+                  const HeightDatum& datum, int width_px, int height_px);
 
 }  // namespace s2s::products
