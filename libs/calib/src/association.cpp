@@ -13,7 +13,9 @@ namespace {
 constexpr double kFirstSigma_m = 0.1;           // of ranges, before anything is known
 constexpr double kLeastSigma_m = 0.02;          // no echo is better than a resolution cell
 constexpr double kLeastTextureSigma_m = 0.004;  // a tenth of a pixel
-constexpr double kNormOfTwo = 1.75;             // median length of a vector of two normal components, over that of one
+constexpr double kFirstApertureSigma_rad = 0.02;
+constexpr double kLeastApertureSigma_rad = 0.002;
+constexpr double kNormOfTwo = 1.75;   // median length of a vector of two normal components, over that of one
 constexpr double kLeastSlope = 0.15;  // metres of height per metre of range: echoes that graze the seabed count little
 constexpr std::size_t kMinEchoes = 500;
 constexpr double kWallReach_m = 0.6;  // an echo this near to a wall may be of it
@@ -31,6 +33,11 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
+double leastSigma(std::size_t kind) {
+  if (kind == at(EvidenceKind::Aperture)) return kLeastApertureSigma_rad;
+  return kind == at(EvidenceKind::Texture) ? kLeastTextureSigma_m : kLeastSigma_m;
+}
+
 EvidenceKind seabedKind(const Echo& echo) {
   switch (echo.kind) {
     case EchoKind::NearEdge:
@@ -39,6 +46,8 @@ EvidenceKind seabedKind(const Echo& echo) {
       return EvidenceKind::FarEdge;
     case EchoKind::Ridge:
       return EvidenceKind::WallEdge;
+    case EchoKind::ApertureEnd:
+      return EvidenceKind::Aperture;
     case EchoKind::Middle:
     case EchoKind::Band:
       break;
@@ -71,11 +80,12 @@ bool touches(Echo& echo, const Depth& depth) {
 }  // namespace
 
 Association::Association(const CalibrationEvidence& evidence, const CalibrationOptions& options)
-    : evidence_(evidence), options_(options), texture_(evidence, options) {
+    : evidence_(evidence), options_(options), aperture_(evidence, options), texture_(evidence, options) {
   std::size_t total = 0;
   for (const auto& ping : evidence_.pings) total += ping.echoes.size();
   stride_ = 1 + total / static_cast<std::size_t>(std::max(1, options_.maxEchoes));
   sigma_.fill(kFirstSigma_m);
+  sigma_[at(EvidenceKind::Aperture)] = kFirstApertureSigma_rad;
 }
 
 void Association::update(const CalibrationState& state, SeabedGrid& grid, const RoundGates& gates) {
@@ -88,6 +98,7 @@ void Association::update(const CalibrationState& state, SeabedGrid& grid, const 
   for (auto& spread : spreads_) spread.clear();
   associateEchoes(grid, gates.echo_m);
   if (gates.texture_m > 0 && options_.texture.enabled) findTexture(state, grid, gates.texture_m);
+  if (gates.aperture && options_.aperture.enabled) findAperture(state, grid);
   rescale();
   if (gates.mirror) findDepth(state);
   if (used_.echoes.size() < kMinEchoes)
@@ -265,14 +276,35 @@ void Association::findTexture(const CalibrationState& state, SeabedGrid& grid, d
   }
 }
 
+/// Ends of the aperture, on the bed as far as the vertical sonar has seen it: where that depends on the horizontal one
+/// alone, it is wherever this one's mounting puts it.
+void Association::findAperture(const CalibrationState& state, const SeabedGrid& grid) {
+  SeabedGrid seenByVertical(options_.cell_m);
+  std::vector<Eigen::Vector3d> points;
+  for (const auto& placed : echoes_) {
+    if (placed.used.sonar != SonarId::Vertical || !placed.mayBeSeabed) continue;
+    points.push_back(placed.p_map);
+    if (placed.other_map) points.push_back(*placed.other_map);
+  }
+  seenByVertical.fit(points, options_.minCellEchoes);
+  aperture_.update(state, grid, seenByVertical);
+  const auto kind = at(EvidenceKind::Aperture);
+  leftOut_[kind] = aperture_.leftOut();
+  for (ApertureAssociation::End end : aperture_.ends()) {
+    ++counts_[kind];
+    spreads_[kind].push_back(std::abs(end.off_rad));
+    end.used.block = blockOf(end.time);
+    end.used.weight_perM = 1 / (sigma_[kind] * end.rise_mPerRad);
+    used_.echoes.push_back(end.used);
+  }
+}
+
 /// Weights by the spread that the evidence has around its surfaces now.
 void Association::rescale() {
   std::array<double, kEvidenceKinds> factor{};
   for (std::size_t kind = 0; kind < kEvidenceKinds; ++kind) {
     const double old = sigma_[kind];
-    if (!spreads_[kind].empty())
-      sigma_[kind] = std::max(kind == at(EvidenceKind::Texture) ? kLeastTextureSigma_m : kLeastSigma_m,
-                              1.4826 * median(spreads_[kind]));
+    if (!spreads_[kind].empty()) sigma_[kind] = std::max(leastSigma(kind), 1.4826 * median(spreads_[kind]));
     factor[kind] = old / sigma_[kind];
   }
   for (UsedEcho& used : used_.echoes) used.weight_perM *= factor[at(used.kind)];

@@ -4,15 +4,17 @@
 #include <memory>
 #include <vector>
 
+#include "aperture_association.h"
 #include "calibration_problem.h"
 
 namespace s2s::calib {
 
 /// How far evidence may be off in a round.
 struct RoundGates {
-  double echo_m = 1;     ///< echoes from seabed and walls
-  double texture_m = 0;  ///< how far apart pictures of the bed may be; 0: they are not looked at
-  bool mirror = false;   ///< whether the second echoes by way of the water surface are looked for
+  double echo_m = 1;      ///< echoes from seabed and walls
+  double texture_m = 0;   ///< how far apart pictures of the bed may be; 0: they are not looked at
+  bool aperture = false;  ///< whether the ends of the aperture are looked for
+  bool mirror = false;    ///< whether the second echoes by way of the water surface are looked for
 };
 
 /// Finds, by the mountings known by now, which surface each echo belongs to.
@@ -44,6 +46,7 @@ class Association {
   std::optional<double> gapOfOther(PlacedEcho& placed, const SeabedGrid& grid) const;
   bool associateWithWall(PlacedEcho& placed, const SeabedGrid& grid, double gate_m);
   void findDepth(const CalibrationState& state);
+  void findAperture(const CalibrationState& state, const SeabedGrid& grid);
   void findTexture(const CalibrationState& state, SeabedGrid& grid, double reach_m);
   void rescale();
 
@@ -52,6 +55,7 @@ class Association {
   std::size_t stride_ = 1;
   std::vector<std::unique_ptr<PingMotion>> motions_;
   std::vector<PlacedEcho> echoes_;
+  ApertureAssociation aperture_;
   TextureAssociation texture_;
   RoundEvidence used_;
   std::optional<MirrorDepth> depth_;

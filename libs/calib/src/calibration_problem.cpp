@@ -42,11 +42,13 @@ struct ScalarPrior {
   }
 };
 
-struct DepthResidual {
-  double z_m, sigma_m;
+/// What is known of a single parameter of a sonar.
+struct ParameterResidual {
+  SonarParameter parameter;
+  double value, sigma;
   template <class T>
   bool operator()(const T* const correction, T* residual) const {
-    residual[0] = (correction[kZ] - z_m) / sigma_m;
+    residual[0] = (correction[parameter] - value) / sigma;
     return true;
   }
 };
@@ -92,7 +94,10 @@ SonarVector priorSigmas(const CalibrationOptions& o, SonarId id) {
           o.rangeScaleSigma,
           o.rangeBearingSigma_m,
           2 * o.rangeBearingSigma_m,
-          o.texture.tiltSigma_mPerRad};
+          o.texture.tiltSigma_mPerRad,
+          o.aperture.widthSigma_rad,
+          o.aperture.widthBendSigma_rad,
+          o.aperture.axisSigma_rad};
 }
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
@@ -192,14 +197,20 @@ void CalibrationProblem::add(const RoundEvidence& evidence) {
   for (const UsedEcho& used : evidence.echoes) addEcho(used, weights[static_cast<std::size_t>(used.kind)]);
   for (const UsedTexture& used : evidence.texture)
     addTexture(used, weights[static_cast<std::size_t>(EvidenceKind::Texture)]);
-  if (evidence.verticalZ_m) {
-    dataBlocks_.push_back(
-        problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<DepthResidual, 1, kSonarParameters>(
-                                      new DepthResidual{*evidence.verticalZ_m, options_.mirror.sigma_m}),
-                                  nullptr, of(state_[SonarId::Vertical])));
-    rowTimes_.push_back(0);
-  }
+  if (evidence.verticalZ_m) addParameter(SonarId::Vertical, kZ, *evidence.verticalZ_m, options_.mirror.sigma_m);
   addRoughness(together / std::max(1.0, all));
+}
+
+void CalibrationProblem::add(const TimeEvidence& evidence) {
+  addParameter(evidence.sonar, kTime, evidence.correction_s, evidence.sigma_s);
+}
+
+void CalibrationProblem::addParameter(SonarId sonar, SonarParameter parameter, double value, double sigma) {
+  dataBlocks_.push_back(
+      problem_.AddResidualBlock(new ceres::AutoDiffCostFunction<ParameterResidual, 1, kSonarParameters>(
+                                    new ParameterResidual{parameter, value, sigma}),
+                                nullptr, of(state_[sonar])));
+  rowTimes_.push_back(0);
 }
 
 void CalibrationProblem::hold(const WeakDirection& direction) {

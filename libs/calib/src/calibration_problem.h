@@ -34,6 +34,12 @@ struct RoundEvidence {
   std::vector<UsedTexture> texture;
 };
 
+/// What is known of a sonar's time offset by itself.
+struct TimeEvidence {
+  SonarId sonar = SonarId::Horizontal;
+  double correction_s = 0, sigma_s = 1;
+};
+
 /// The least-squares problem of one round: echoes against the seabed's heights and walls, what is known
 /// beforehand, and directions that are held.
 class CalibrationProblem {
@@ -43,6 +49,7 @@ class CalibrationProblem {
 
   /// To be called once, before anything else.
   void add(const RoundEvidence& evidence);
+  void add(const TimeEvidence& evidence);
   /// Holds a combination of parameters at its nominal value.
   void hold(const WeakDirection& direction);
   /// Nothing but the seabed moves.
@@ -55,6 +62,7 @@ class CalibrationProblem {
   void addPriors();
   void addTexture(const UsedTexture& used, double weight);
   void addEcho(const UsedEcho& used, double weight);
+  void addParameter(SonarId sonar, SonarParameter parameter, double value, double sigma);
   ceres::LossFunction* loss(double weight) const;
   /// @param weight of the squares, as the echoes have on average
   void addRoughness(double weight);

@@ -55,6 +55,8 @@ double nominalOf(const CalibrationState& state, int parameter) {
   return own < kRotX ? sonar.T_vehicle_sonar.translation()[own] : 0;  // turns are relative to the nominal mounting
 }
 
+bool isAngle(std::size_t kind) { return kind == static_cast<std::size_t>(EvidenceKind::Aperture); }
+
 std::string poses(const CalibrationState& state) {
   std::string text;
   for (const SonarId id : kSonars)
@@ -89,12 +91,13 @@ std::string reportText(const CalibrationResult& result) {
     const double before = nominalOf(result.state, v) - nominalOf(result.state, h);
     text += row(kNames[k], unitOf(kindOf(h)), before, before + x[v] - x[h], o.relative[k]);
   }
-  static const char* const kKinds[kEvidenceKinds] = {"near edges",      "far edges",      "upright bands",
-                                                     "ridges of walls", "bands at walls", "texture"};
+  static const char* const kKinds[kEvidenceKinds] = {"near edges",     "far edges", "upright bands",  "ridges of walls",
+                                                     "bands at walls", "texture",   "aperture's ends"};
   text += "\n";
   for (std::size_t k = 0; k < kEvidenceKinds; ++k)
-    text += mrpt::format("  %-14s %7zu used, %7zu left out, spread %.3f m\n", kKinds[k], result.statistics.used[k],
-                         result.statistics.leftOut[k], result.statistics.sigma_m[k]);
+    text += mrpt::format("  %-15s %7zu used, %7zu left out, spread %.3f %s\n", kKinds[k], result.statistics.used[k],
+                         result.statistics.leftOut[k], result.statistics.sigma_m[k] * (isAngle(k) ? kDegrees : 1),
+                         isAngle(k) ? "deg" : "m");
   if (const auto& mirror = result.statistics.mirror)
     text += mrpt::format("  echoes by way of the water surface: %zu traces, strength %.2f, %.0f %% explained\n",
                          mirror->traces, mirror->strength, 100 * mirror->explained);

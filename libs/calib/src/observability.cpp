@@ -119,7 +119,8 @@ WantedVector correctionsOf(const CalibrationState& state) {
 
 Observability assess(const DataInformation& data, const CalibrationOptions& options) {
   const WantedMatrix D = priors(options);
-  const WantedMatrix covariance = scaledCovariance(data, D);
+  WantedMatrix covariance = scaledCovariance(data, D);
+  covariance(kWanted - 1, kWanted - 1) += std::pow(options.soundSpeedCommon_mps / options.soundSpeedSigma_mps, 2);
   const Eigen::SelfAdjointEigenSolver<WantedMatrix> eigen(covariance);
   Observability result;
   WantedMatrix held = WantedMatrix::Zero();

@@ -17,6 +17,8 @@ core::OptionTable optionTable(CalibrationOptions& o) {
   table.add("loss_width", o.lossWidth, "Width of Cauchy's loss, in standard deviations", {0.1, 100});
   table.add("common_share", o.commonShare, "Share of the ranges' spread that is common to all echoes of a kind",
             {0.001, 1});
+  table.add("sound_speed_common_mps", o.soundSpeedCommon_mps, "Error of the sound speed that no echo shows", {0, 100});
+  table.add("time_common_share", o.timeCommonShare, "The same where time offsets are told", {0.001, 1});
   table.add("position_sigma_m", o.positionSigma_m, "How well mountings are known beforehand", core::positive());
   table.addDegrees("rotation_sigma_deg", o.rotationSigma_rad, "How well mountings are known beforehand",
                    core::positive());
@@ -43,6 +45,31 @@ core::OptionTable optionTable(CalibrationOptions& o) {
   table.add("sound_speed_limit_mps", o.soundSpeedLimit_mps, "Known better than this it counts as observable",
             core::positive());
   table.add("block_s", o.block_s, "Errors within such a time count as correlated", {0.1, 1e4});
+  return table;
+}
+
+core::OptionTable optionTable(ApertureOptions& o) {
+  core::OptionTable table;
+  table.add("enabled", o.enabled, "Both ends of the aperture tell the horizontal sonar's turn across its plane");
+  table.add("ping_step", o.pingStep, "One ping in so many is looked at", {1, 1000});
+  table.add("beam_step", o.beamStep, "One group of beams in so many beams is looked at", {1, 1000});
+  table.add("beams_averaged", o.beamsAveraged, "Beams of a group", {1, 99});
+  table.add("min_range_m", o.minRange_m, "Nearer bins hold the ring-down", {0, 1000});
+  table.add("stack_s", o.stack_s, "Pings of such a time are averaged into one profile", {0.1, 1000});
+  table.addDegrees("sector_deg", o.sector_rad, "Beams of such a sector are averaged into one profile", {1, 180});
+  table.addDegrees("max_bearing_deg", o.maxBearing_rad, "Beams further out are not used", {1, 89});
+  table.addDegrees("step_deg", o.step_rad, "Step of elevation of a profile", {0.02, 5});
+  table.addDegrees("beyond_deg", o.beyond_rad, "Profiles reach so far to either side of an end", {1, 45});
+  table.addDegrees("ramp_deg", o.ramp_rad, "Elevations nearer to an end tell neither level", {0.1, 45});
+  table.addDegrees("level_deg", o.level_rad, "Elevations beyond those that tell the level on a side", {0.1, 45});
+  table.add("min_profiles", o.minProfiles, "Groups of beams that make a profile at least", {1, 1e6});
+  table.add("min_contrast", o.minContrast, "Least ratio of the level inside to that outside", {1, 1000});
+  table.addDegrees("width_sigma_deg", o.widthSigma_rad, "How far both ends may lie beyond the nominal aperture",
+                   core::positive());
+  table.addDegrees("width_bend_sigma_deg", o.widthBendSigma_rad,
+                   "The same, its change from the fan's centre to a radian", core::positive());
+  table.addDegrees("axis_sigma_deg", o.axisSigma_rad, "How far their middle may lie off the imaging plane",
+                   core::positive());
   return table;
 }
 

@@ -55,6 +55,7 @@ calib::CalibrationEvidence CalibrationGatherer::evidence() {
   evidence.T_map_vehicle = trajectory();
   evidence.pings = std::move(pings_);
   evidence.texture = std::move(texture_);
+  evidence.aperture = std::move(aperture_);
   evidence.mirror = std::move(mirror_);
   if (!config_.mapper.onWater || evidence.T_map_vehicle.empty()) return evidence;
   double water_m = 0;
@@ -115,6 +116,8 @@ void CalibrationGatherer::addHorizontal(const obs::CObservationImagingSonar& pin
   echoes.echoes = calib::returnsOf(horizontal_.process(ping).lineScan, sonar.T_vehicle_sonar, config_.swath.beamStep);
   if (config_.calibration.texture.enabled)
     texture_.push_back(calib::texturePing(ping, echoes.time, config_.calibration.texture));
+  if (config_.calibration.aperture.enabled && horizontalPings_++ % config_.calibration.aperture.pingStep == 0)
+    aperture_.push_back(calib::aperturePing(ping, echoes.time, config_.calibration.aperture));
   if (config_.calibration.farEdgeBearing_rad > 0)
     for (const auto& echo : calib::echoesOf(calib::findSwaths(ping, config_.swath), sonar.T_vehicle_sonar,
                                             sonar.aperture_rad, ping.maxRange_m()))

@@ -50,6 +50,8 @@ class CalibrationGatherer {
   std::map<calib::SonarId, bool> described_;
   std::vector<calib::PingEchoes> pings_;
   std::vector<calib::TexturePing> texture_;
+  std::vector<calib::AperturePing> aperture_;
+  int horizontalPings_ = 0;
   std::vector<calib::MirrorTrace> mirror_;
 };
 

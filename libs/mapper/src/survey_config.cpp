@@ -25,6 +25,7 @@ Sections sectionsOf(SurveyConfig& config) {
                        {"map.view", map::optionTable(config.map.view)},
                        {"products", products::optionTable(config.products)},
                        {"calibration", calib::optionTable(config.calibration)},
+                       {"calibration.aperture", calib::optionTable(config.calibration.aperture)},
                        {"calibration.mirror", calib::optionTable(config.calibration.mirror)},
                        {"calibration.texture", calib::optionTable(config.calibration.texture)},
                        {"calibration.swath", calib::optionTable(config.swath)}};

@@ -18,15 +18,16 @@ enum class EvidenceKind : std::uint8_t {
   WallEdge = 3,  ///< echo of the horizontal sonar on a wall
   WallBand = 4,  ///< band of the vertical sonar on a wall
   Texture = 5,   ///< two pictures of the bed by the horizontal sonar
+  Aperture = 6,  ///< ends of the horizontal sonar's aperture on the bed
 };
-constexpr std::size_t kEvidenceKinds = 6;
+constexpr std::size_t kEvidenceKinds = 7;
 
 /// What was used and how well it fits.
 struct CalibrationStatistics {
   std::array<std::size_t, kEvidenceKinds> used{};     ///< in the last round
   std::array<std::size_t, kEvidenceKinds> leftOut{};  ///< beyond the gate or where there is no surface
   std::optional<MirrorDepth> mirror;                  ///< echoes by way of the water surface
-  std::array<double, kEvidenceKinds> sigma_m{};       ///< spread of the ranges around the surface
+  std::array<double, kEvidenceKinds> sigma_m{};       ///< spread of the ranges around the surface; Aperture: [rad]
 };
 
 struct CalibrationResult {

@@ -12,11 +12,12 @@ namespace s2s::calib {
 
 /// What a measured range means.
 enum class EchoKind : std::uint8_t {
-  NearEdge = 0,  ///< the band begins: the lower edge of the aperture meets the seabed
-  FarEdge = 1,   ///< the band ends: the upper edge meets it
-  Middle = 2,    ///< a point of the aperture, met at the range of a band's centre
-  Band = 4,      ///< the same, as one: the mean over the aperture is that of the two points of Gauss' quadrature
-  Ridge = 3      ///< stands out of the bed's echo: of a wall behind it, at an unknown elevation
+  NearEdge = 0,     ///< the band begins: the lower edge of the aperture meets the seabed
+  FarEdge = 1,      ///< the band ends: the upper edge meets it
+  Middle = 2,       ///< a point of the aperture, met at the range of a band's centre
+  Band = 4,         ///< the same, as one: the mean over the aperture is that of the two points of Gauss' quadrature
+  ApertureEnd = 5,  ///< on the bed at the aperture's end, as a mean profile over elevation tells it
+  Ridge = 3         ///< stands out of the bed's echo: of a wall behind it, at an unknown elevation
 };
 
 struct Echo {

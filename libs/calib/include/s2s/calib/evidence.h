@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "s2s/calib/aperture_ping.h"
 #include "s2s/calib/echo_table.h"
 #include "s2s/calib/texture.h"
 #include "s2s/calib/water_mirror.h"
@@ -26,6 +27,7 @@ struct CalibrationEvidence {
   core::Trajectory T_map_vehicle;  ///< z up
   std::vector<PingEchoes> pings;
   std::vector<TexturePing> texture;     ///< of the horizontal sonar; may be empty
+  std::vector<AperturePing> aperture;   ///< of the horizontal sonar; may be empty
   std::vector<MirrorTrace> mirror;      ///< of the vertical sonar; may be empty
   std::optional<double> waterHeight_m;  ///< of the surface in the map, as the floating hull tells it
   WallFinder wallAt;                    ///< walls that the LiDAR saw, gone on below the water; may be none

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "s2s/calib/aperture_ping.h"
 #include "s2s/calib/swath.h"
 #include "s2s/calib/texture.h"
 #include "s2s/calib/water_mirror.h"
@@ -31,6 +32,14 @@ struct CalibrationOptions {
   /// bend of a cell): however many there are, together they tell no more than 1 / share^2 independent ones.
   double commonShare = 0.05;
 
+  /// Error of the sound speed that no echo shows: the scale of the trajectory, against which ranges are held, is not
+  /// known better than the LiDAR's ranges are (0.03 %).
+  double soundSpeedCommon_mps = 0.45;
+  /// The share when time offsets are told: what is common to echoes does not follow the vehicle's turns, waves and
+  /// changes of speed, by which they show.
+  double timeCommonShare = 0.01;
+
+  ApertureOptions aperture;   ///< section [calibration.aperture]
   TextureOptions texture;     ///< section [calibration.texture]
   WaterMirrorOptions mirror;  ///< section [calibration.mirror]
 

@@ -7,6 +7,8 @@ namespace s2s::calib {
 
 /// The keys of [calibration].
 core::OptionTable optionTable(CalibrationOptions& options);
+/// The keys of [calibration.aperture].
+core::OptionTable optionTable(ApertureOptions& options);
 /// The keys of [calibration.mirror].
 core::OptionTable optionTable(WaterMirrorOptions& options);
 /// The keys of [calibration.texture].

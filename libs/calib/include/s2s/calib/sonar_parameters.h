@@ -33,8 +33,11 @@ enum SonarParameter : int {
   kRangeBend = 14,  ///< [m/rad^2] and with its square
   kTextureTilt = 15,  ///< [m/rad] how much higher the bed is that texture shows, growing with elevation: presumably
                       ///< crests count for more at grazing incidence
+  kWidth = 16,        ///< [rad] how far the ends of the aperture, from averaged profiles, lie beyond its nominal width
+  kWidthBend = 17,    ///< [rad] more of it at a bearing of one radian, growing with the bearing's square
+  kAxis = 18,         ///< [rad] elevation of their middle
 };
-constexpr int kSonarParameters = 16;
+constexpr int kSonarParameters = 19;
 /// Those before this one are wanted; the rest are nuisances.
 constexpr int kWantedSonarParameters = 7;
 using SonarVector = std::array<double, kSonarParameters>;

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 
 #include "s2s/calib/echo_table.h"
 #include "s2s/calib/sonar_parameters.h"
@@ -82,10 +84,35 @@ Eigen::Matrix<T, 3, 1> toMap(const Eigen::Matrix<T, 3, 1>& p_vehicle, const Ping
          motion.T_map_vehicle.translation().template cast<T>();
 }
 
+/// What holds of a sonar's corrections for evidence that has no part in how edges and bands of single pings are found:
+/// the mounting, and the nuisances that are its own.
+template <class T, std::size_t N>
+std::array<T, kSonarParameters> ownCorrection(const T* const correction,
+                                              const std::array<SonarParameter, N>& nuisances) {
+  std::array<T, kSonarParameters> own;
+  own.fill(T(0));
+  std::copy_n(correction, kWantedSonarParameters, own.begin());
+  for (const SonarParameter i : nuisances) own[static_cast<std::size_t>(i)] = correction[i];
+  return own;
+}
+
+/// Where the end of the aperture at a place of the fan meets the bed.
+template <class T>
+Eigen::Matrix<T, 3, 1> apertureEndPoint(const Echo& echo, const SonarState& sonar, const PingMotion& motion,
+                                        const T* const correction, const T& soundSpeed_mps) {
+  const auto own = ownCorrection<T, 3>(correction, {kWidth, kWidthBend, kAxis});
+  const auto bearing = static_cast<double>(echo.bearing_rad);
+  const CorrectedBeam<T> beam(echo.range_m, bearing, sonar, own.data(), soundSpeed_mps);
+  const T half = T(0.5 * sonar.aperture_rad) + own[kWidth] + own[kWidthBend] * (bearing * bearing);
+  const T elevation = T(echo.elevationShare) * half + own[kAxis];
+  return toMap<T>(toVehicle<T>(beamPoint<T>(beam, elevation, sonar.model), sonar, own.data()), motion, own.data());
+}
+
 /// The place in the map of an echo: the beam at the elevation of the echo's kind, mounting, time.
 template <class T>
 Eigen::Matrix<T, 3, 1> echoPoint(const Echo& echo, const SonarState& sonar, const PingMotion& motion,
                                  const T* const correction, const T& soundSpeed_mps) {
+  if (echo.kind == EchoKind::ApertureEnd) return apertureEndPoint(echo, sonar, motion, correction, soundSpeed_mps);
   const auto bearing = static_cast<double>(echo.bearing_rad);
   const CorrectedBeam<T> beam(echo.range_m, bearing, sonar, correction, soundSpeed_mps);
   T beyond(0);

@@ -25,14 +25,10 @@ struct BedSight {
   const PingMotion* motion = nullptr;
 };
 
-/// What holds for texture of a sonar's corrections: the nuisances are errors of how edges and bands are found, of which
-/// texture has none.
+/// What holds for texture of a sonar's corrections.
 template <class T>
 SonarCorrection<T> textureCorrection(const T* const correction) {
-  SonarCorrection<T> own;
-  for (int i = 0; i < kSonarParameters; ++i)
-    own[static_cast<std::size_t>(i)] = i < kWantedSonarParameters || i == kTextureTilt ? correction[i] : T(0);
-  return own;
+  return ownCorrection<T, 1>(correction, {kTextureTilt});
 }
 
 /// The place on the bed that a sight shows: its elevation follows from the bed's height.
