@@ -37,7 +37,8 @@ double meanOf(const std::vector<double>& values, double from, double to) {
 std::optional<double> crossing(const std::vector<double>& profile, double ramp, double level, double minContrast) {
   const auto last = static_cast<double>(profile.size() - 1);
   double at = 0, most = 0;
-  for (double c = ramp + level; c <= last - ramp - level; c += 1) {
+  for (int k = static_cast<int>(std::ceil(ramp + level)); k <= static_cast<int>(last - ramp - level); ++k) {
+    const double c = k;
     const double step = meanOf(profile, c - ramp - level, c - ramp) - meanOf(profile, c + ramp, c + ramp + level);
     if (step > most) most = step, at = c;
   }
@@ -52,7 +53,8 @@ std::optional<double> crossing(const std::vector<double>& profile, double ramp, 
     const double middle = 0.5 * (inside + outside);
     double next = -1;
     for (int k = static_cast<int>(at - ramp); k < static_cast<int>(at + ramp); ++k) {
-      const double here = profile[static_cast<std::size_t>(k)], there = profile[static_cast<std::size_t>(k + 1)];
+      const auto lower = static_cast<std::size_t>(k);
+      const double here = profile[lower], there = profile[lower + 1];
       if (here < middle || there >= middle) continue;
       const double place = k + (here - middle) / (here - there);
       if (next < 0 || std::abs(place - at) < std::abs(next - at)) next = place;

@@ -40,8 +40,8 @@ class Rounds {
     problem.solve(kIterations);
     const Observability told = assess(problem.information(), options);
     for (const SonarId id : kSonars) {
-      const auto& verdict =
-          told.parameters[static_cast<std::size_t>(static_cast<int>(id) * kWantedSonarParameters + kTime)];
+      const int time = static_cast<int>(id) * kWantedSonarParameters + kTime;
+      const auto& verdict = told.parameters[static_cast<std::size_t>(time)];
       if (verdict.verdict != Verdict::Unobservable) times_.push_back({id, state_[id].correction[kTime], verdict.sigma});
     }
     state_ = before;
