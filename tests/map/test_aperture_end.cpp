@@ -13,7 +13,9 @@ using s2s::map::ApertureEnd;
 constexpr double kDegree = M_PI / 180;
 constexpr double kPrior_rad = 2 * kDegree;
 
-std::vector<double> ping(double middle_rad, std::size_t returns = 21) { return std::vector<double>(returns, middle_rad); }
+std::vector<double> ping(double middle_rad, std::size_t returns = 21) {
+  return std::vector<double>(returns, middle_rad);
+}
 
 TEST(ApertureEnd, NothingSeen_IsTheNominalEndWithThePriorsSigma) {
   const ApertureEnd end(kPrior_rad);
@@ -27,6 +29,14 @@ TEST(ApertureEnd, OnePing_IsDrawnTowardsTheNominalEnd) {
   EXPECT_GT(end.beyond_rad(), 0);
   EXPECT_LT(end.beyond_rad(), 0.6 * kDegree);
   EXPECT_LT(end.sigma_rad(), kPrior_rad);
+}
+
+TEST(ApertureEnd, SomethingElseExpected_IsDrawnTowardsThat) {
+  ApertureEnd end(kPrior_rad);
+  EXPECT_EQ(end.beyond_rad(0.3 * kDegree), 0.3 * kDegree);
+  end.addPing(ping(1 * kDegree));
+  EXPECT_GT(end.beyond_rad(0.3 * kDegree), end.beyond_rad());
+  EXPECT_LT(end.beyond_rad(0.3 * kDegree), 1 * kDegree);
 }
 
 TEST(ApertureEnd, ManyPings_ErrorKeepsToTheSigma) {
@@ -46,7 +56,8 @@ TEST(ApertureEnd, ManyPings_ErrorKeepsToTheSigma) {
     EXPECT_LT(std::abs(end.beyond_rad() - truth), 5 * end.sigma_rad());
     sum += std::pow((end.beyond_rad() - truth) / end.sigma_rad(), 2);
   }
-  // Mean square of 200 normal values: 1 within 0.1; the median of thirty values has its asymptotic sigma within a tenth.
+  // Mean square of 200 normal values: 1 within 0.1; the median of thirty values has its asymptotic sigma within a
+  // tenth.
   EXPECT_NEAR(sum / kSurveys, 1, 0.4);
 }
 

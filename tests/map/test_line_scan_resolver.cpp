@@ -166,6 +166,34 @@ TEST(LineScanResolver, LastPartOfTheApertureSilent_EndIsLearntAndTheBiasVanishes
   checkThatTheEndIsLearnt(-0.7, BearingModel::Cone);
 }
 
+TEST(LineScanResolver, DimBedThenBrightBed_EachHasItsOwnEnd) {
+  // 20 m of mud that is heard to the nominal end, then 20 m of sand that is heard 1 degree beyond it.
+  LeadingEdgeScene mud, sand;
+  for (LeadingEdgeScene* scene : {&mud, &sand}) scene->add(LeadingEdgeScene::seabed(kSeabed_m));
+  sand.heardHalf_rad += 1 * kDegree;
+  CSeabedSkyMap map(withElevation(LineElevation::Resolved));
+  constexpr double kHalf_m = 20;
+  for (double x = 0; x < 2 * kHalf_m; x += 0.2) {
+    const Isometry T = isometryFromXyzYpr(x, 0, 0, 0, 0, 0);
+    LeadingEdgeScene& scene = x < kHalf_m ? mud : sand;
+    map.insertLineScan(Layer::LineVertical, durationNs(x), T,
+                       scene.ping(T, verticalMount(), kVerticalHalfFan, 128, BearingModel::Azimuth, 0.01));
+    map.insertLineScan(Layer::LineHorizontal, durationNs(x), T,
+                       scene.ping(T, horizontalMount(), kHorizontalHalfFan, 256, BearingModel::Azimuth, 0.01));
+  }
+  map.resolveLineScans();
+  std::vector<double> onMud, onSand;
+  for (const MapPoint& p : pointsOf(map, Layer::LineHorizontal)) {
+    const double taken_m = static_cast<double>(p.time) / 1e9;  // the path's place is the time in seconds
+    if (taken_m < 8) onMud.push_back(p.p_map.z() - kSeabed_m);
+    if (taken_m > 32) onSand.push_back(p.p_map.z() - kSeabed_m);
+  }
+  // One end for both, half a degree off, would make either some 2 cm wrong, in opposite ways. What one place knows by
+  // its hundred pings is believed to four fifths, the rest is the survey's.
+  EXPECT_LT(std::abs(mean(onMud)), 0.01);
+  EXPECT_LT(std::abs(mean(onSand)), 0.01);
+}
+
 TEST(LineScanResolver, NominalEndBelieved_BedHeardBeyondItIsTooHighByTheClosedForm) {
   Survey survey;
   survey.scene.add(LeadingEdgeScene::seabed(kSeabed_m));

@@ -18,16 +18,14 @@ constexpr double kQuartilesToSigma = 1 / 1.349, kMedianToMean = 1.2533;
 
 }  // namespace
 
-ApertureEnd::ApertureEnd(double prior_rad)
-    : prior_rad_(prior_rad),
-      histogram_(static_cast<std::size_t>(std::ceil(2 * kReach_rad / kBin_rad))),
-      sigma_rad_(prior_rad) {}
+ApertureEnd::ApertureEnd(double prior_rad) : prior_rad_(prior_rad), sigma_rad_(prior_rad) {}
 
 void ApertureEnd::addPing(std::vector<double> beyond_rad) {
   if (beyond_rad.size() < kMinReturns) return;
   const auto middle = beyond_rad.begin() + static_cast<std::ptrdiff_t>(beyond_rad.size() / 2);
   std::nth_element(beyond_rad.begin(), middle, beyond_rad.end());
   if (!(std::abs(*middle) < kReach_rad)) return;
+  if (histogram_.empty()) histogram_.resize(static_cast<std::size_t>(std::ceil(2 * kReach_rad / kBin_rad)));
   const auto bin = static_cast<std::size_t>((*middle + kReach_rad) / kBin_rad);
   ++histogram_[std::min(bin, histogram_.size() - 1)];
   ++pings_;
@@ -52,9 +50,9 @@ void ApertureEnd::estimate() {
   const double single2 = (scatter_rad * scatter_rad * (alike - 1) + prior_rad_ * prior_rad_) / alike;
   const double median2 = kMedianToMean * kMedianToMean * single2 / alike;
   const double prior2 = prior_rad_ * prior_rad_, sum2 = prior2 + median2;
-  const double trust = sum2 > 0 ? prior2 / sum2 : 0;
-  beyond_rad_ = trust * quantile(0.5);
-  sigma_rad_ = std::sqrt(trust * median2);
+  median_rad_ = quantile(0.5);
+  trust_ = sum2 > 0 ? prior2 / sum2 : 0;
+  sigma_rad_ = std::sqrt(trust_ * median2);
 }
 
 }  // namespace s2s::map

@@ -421,6 +421,7 @@ void LineScanResolver::reset(const ResolverOptions& options) {
   swaths_.reset(options);
   free_.clear();
   ends_.fill(ApertureEnd(options.endSigma_rad));
+  endsHere_ = SparseGrid<Ends>(kEndCell_m);
 }
 
 void LineScanResolver::addStereoPoint(const Eigen::Vector3d& p_map, double sigma_m) {
@@ -447,7 +448,17 @@ void LineScanResolver::observeEnds(const StoredLineScan& scan, const core::Isome
     if (const auto beyond = seabedBeyond(profiles_, scan, r, T_map_sonar, isHigh ? 1 : -1))
       beyond_rad[isHigh ? 1 : 0].push_back(*beyond);
   }
-  for (std::size_t side = 0; side < ends_.size(); ++side) ends_[side].addPing(std::move(beyond_rad[side]));
+  const std::int32_t ix = endsHere_.index(lastObserved_m_.x()), iy = endsHere_.index(lastObserved_m_.y());
+  for (std::size_t side = 0; side < ends_.size(); ++side) {
+    if (beyond_rad[side].empty()) continue;
+    for (int dx = -1; dx <= 1; ++dx)
+      for (int dy = -1; dy <= 1; ++dy) {
+        ApertureEnd& here = endsHere_.at(ix + dx, iy + dy)[side];
+        if (here.pings() == 0) here = ApertureEnd(options_.edgeSigma_rad);
+        here.addPing(beyond_rad[side]);
+      }
+    ends_[side].addPing(std::move(beyond_rad[side]));
+  }
 }
 
 void LineScanResolver::addLineScan(const StoredLineScan& scan, const core::Isometry& T_map_vehicle) {
@@ -470,8 +481,15 @@ void LineScanResolver::resolve(StoredLineScan& scan, const core::Isometry& T_map
   const SurfaceEvidence &others = isVertical ? swaths_ : profiles_, &own = isVertical ? profiles_ : swaths_;
   Aperture aperture(scan);
   if (scan.pose.layer == Layer::LineHorizontal) {
-    aperture.low_rad -= ends_[0].beyond_rad();
-    aperture.high_rad += ends_[1].beyond_rad();
+    const Eigen::Vector3d origin = T_map_vehicle * scan.T_vehicle_sonar.translation();
+    SparseGrid<Ends>::Hint hint;
+    const Ends* here = endsHere_.find(endsHere_.index(origin.x()), endsHere_.index(origin.y()), hint);
+    const auto beyond = [&](std::size_t side) {
+      const double survey_rad = ends_[side].beyond_rad();
+      return here ? (*here)[side].beyond_rad(survey_rad) : survey_rad;
+    };
+    aperture.low_rad -= beyond(0);
+    aperture.high_rad += beyond(1);
     for (const ApertureEnd& end : ends_)
       if (end.pings() > 0) aperture.sigma_rad = std::max(aperture.sigma_rad, end.sigma_rad());
   }

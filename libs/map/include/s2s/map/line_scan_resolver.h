@@ -9,6 +9,7 @@
 #include "s2s/map/free_space.h"
 #include "s2s/map/options.h"
 #include "s2s/map/scan.h"
+#include "s2s/map/sparse_grid.h"
 #include "s2s/map/surface_evidence.h"
 
 namespace s2s::map {
@@ -62,11 +63,15 @@ class LineScanResolver {
 
  private:
   ResolverOptions options_;
+  static constexpr double kEndCell_m = 8;
+
   SurfaceEvidence walls_;
   SurfaceEvidence profiles_;  // seabed by stereo and the vertical sonar, for the horizontal one
   SurfaceEvidence swaths_;    // seabed by stereo and the horizontal sonar, for the vertical one
   FreeSpace free_;
-  std::array<ApertureEnd, 2> ends_;
+  using Ends = std::array<ApertureEnd, 2>;
+  Ends ends_;
+  SparseGrid<Ends> endsHere_{kEndCell_m};                     // by the pings taken in a cell and its neighbours
   Eigen::Vector3d lastObserved_m_ = Eigen::Vector3d::Zero();  // where the last ping was taken that told of the ends
 };
 
