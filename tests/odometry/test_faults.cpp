@@ -26,6 +26,26 @@ TEST(OdometryFaults, ImuEndsForGood_OdometryGoesOn) {
   EXPECT_LT(worstError(run, record).translation_m, 0.06);
 }
 
+TEST(OdometryFaults, LidarSilentForLong_OldImuSamplesAreForgotten) {
+  const Record record;
+  const Path still = [](double) { return core::isometryFromXyzYpr(0.5, 0.2, 0.8, 0.3, 0.04, -0.06); };
+  constexpr double kBack_s = 408;
+  Random random(record.seed);
+  LidarInertialOdometry odometry(record.options);
+  std::size_t results = 0;
+  OdometryResult last;
+  for (int i = 0; 0.01 * i < kBack_s + 1; ++i) {
+    odometry.addImu(imuAt(still, 0.01 * i, record.T_vehicle_imu, record.noise, random));
+    if (i % 10 != 0 || (i >= 800 && 0.01 * i < kBack_s)) continue;
+    odometry.addScan(scanAt(record.world, still, 0.01 * i, record.lidar, random));
+    while (auto result = odometry.next()) last = std::move(*result), ++results;
+  }
+  EXPECT_GT(results, 80U);
+  // Five minutes are kept, so the scan that ends the silence of nearly seven has to bridge the rest, and only that one.
+  EXPECT_EQ(odometry.faults().imuGaps, 1U);
+  EXPECT_EQ(last.status, OdometryStatus::registered);
+}
+
 TEST(OdometryFaults, NotFiniteAndBackwardImu_AreRefusedAndCounted) {
   Record record;
   std::size_t count = 0, spoilt = 0;

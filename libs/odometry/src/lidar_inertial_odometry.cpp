@@ -18,6 +18,8 @@ constexpr double kLatestImu_s = 1.0;
 constexpr double kEarly_s = 1.0;
 /// Samples are kept this much longer, as the time offset may change.
 constexpr double kImuMemory_s = 0.5;
+/// So much is kept at most while no scan comes: a LiDAR that is silent for longer must not fill the memory.
+constexpr double kImuPatience_s = 300.0;
 /// Acoustic points are kept so long (and while the start is looked at) for the scan of their time.
 constexpr double kAcousticMemory_s = 60.0;
 /// Without IMU these many scans tell the speed at the start; fewer than the least tell nothing.
@@ -52,6 +54,8 @@ void LidarInertialOdometry::addImu(const ImuSample& sample) {
     ++faults_.imuIgnored;
   else if (!imu_.add(sample))
     ++faults_.imuRefused;
+  else if (waiting_.empty())
+    imu_.forgetBefore(sample.time - core::durationNs(kImuPatience_s));
 }
 
 void LidarInertialOdometry::addScan(Scan scan) { waiting_.push_back(std::move(scan)); }
@@ -177,7 +181,7 @@ bool LidarInertialOdometry::tryStart() {
   }
   tracker_ = std::make_unique<ScanTracker>(options_, hasImu, T_vehicle_imu);
   StartState start = rehearsedStart(rough, T_vehicle_imu, hasImu, options_.initialisation_s);
-  if (start.isAtRestByAssumption) start = aligned(rough, start, T_vehicle_imu);
+  if (start.isSpeedOpen) start = aligned(rough, start, T_vehicle_imu);
   tracker_->start(start);
   trajectory_.append(first.time, tracker_->T_odom_vehicle());
   return true;

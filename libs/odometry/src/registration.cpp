@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "pretended.h"
+#include "robust.h"
 
 namespace s2s::odometry {
 
@@ -16,14 +17,6 @@ using core::Vector6;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Width of the Cauchy kernel in robust standard deviations; 2.385 keeps 95 % efficiency on Gaussian residuals.
-constexpr double kCauchyWidth = 2.385;
-/// Median of |x| of a unit Gaussian.
-constexpr double kMedianOfAbs = 0.6745;
-
-/// Residuals may be this much smaller than expected and be believed; much smaller ones come from a map that has been
-/// fitted to them.
-constexpr double kLeastScale = 0.5;
 /// Least share of an unknown motion that may show in directions that are seen.
 constexpr double kUnseenLeak = 0.01;
 /// Singular values below this are noise of the directions, and the cosine above which two directions are the same.
@@ -66,14 +59,11 @@ std::vector<Residual> residualsAt(const BodyPoints& points, const PlaneMap& map,
 }
 
 /// Robust scale of the residuals over their expected standard deviations.
-double robustScale(const std::vector<Residual>& residuals) {
-  if (residuals.empty()) return 0;
+double residualScale(const std::vector<Residual>& residuals) {
   std::vector<double> sizes;
   sizes.reserve(residuals.size());
   for (const auto& residual : residuals) sizes.push_back(std::abs(residual.r) / residual.sigma_m);
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return *middle / kMedianOfAbs;
+  return robustScale(sizes);
 }
 
 /// Sum of v G (1 - n n^T) G^T over all residuals, v = w times tilt variance and G = dh/dn = (1, [p]x R^T); as
@@ -132,13 +122,13 @@ NormalEquations linearise(const BodyPoints& points, const PlaneMap& map, const c
   const auto residuals = residualsAt(points, map, T, priorCovariance, options);
   NormalEquations sum;
   sum.matches = residuals.size();
-  sum.residualScale = robustScale(residuals);
+  sum.residualScale = residualScale(residuals);
   const double scale = std::max(kLeastScale, sum.residualScale);
   PretendedSum pretended;
   for (const auto& residual : residuals) {
     const double sigma = scale * residual.sigma_m;
-    const double width2 = kCauchyWidth * kCauchyWidth * (sigma * sigma + priorShare * residual.priorVariance);
-    const double w = 1.0 / ((1.0 + residual.r * residual.r / width2) * sigma * sigma * options.correlation);
+    const double kernel = cauchyWeight(residual.r, sigma * sigma + priorShare * residual.priorVariance);
+    const double w = kernel / (sigma * sigma * options.correlation);
     sum.priorRatio = std::max(sum.priorRatio, residual.priorVariance / (sigma * sigma));
     const Vector6 wh = w * residual.h;
     sum.A.noalias() += wh * residual.h.transpose();

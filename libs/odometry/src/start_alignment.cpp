@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "pretended.h"
+#include "robust.h"
 #include "s2s/odometry/downsample.h"
 #include "voxel_key.h"
 
@@ -21,17 +22,20 @@ using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 using Information = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 using ByUnknowns = Eigen::Matrix<double, 3, kUnknowns>;
 
-/// Windows, as shares of the whole, and how much larger their voxels are: what is smeared at first needs room.
-struct Window {
+/// Shares of the window, and how much larger their voxels are: what is smeared at first needs room.
+struct Stage {
   double share, voxelGrowth;
 };
-constexpr Window kWindows[] = {{0.25, 2.0}, {0.5, 1.5}, {1.0, 1.0}};
+constexpr Stage kStages[] = {{0.25, 2.0}, {0.5, 1.5}, {1.0, 1.0}};
+/// Speeds ahead that are tried beside the assumed one: from one standard deviation astern to two ahead, in steps from
+/// which the right one is still found.
+constexpr double kSpeedStep_mps = 1.0, kSpeedStepSigma_mps = 0.5, kMostSpeedSigmas = 2.0;
+/// So many times more points on planes make a speed believed against the assumed one; solutions that are the same but
+/// for where the iterations began differ by up to half a percent.
+constexpr double kTellingSupport = 1.005;
 constexpr int kMaxIterations = 10;
 /// A step that moves the start by less than this share of its standard deviations ends the iterations.
 constexpr double kSmallStep = 0.05;
-constexpr double kCauchyWidth = 2.385;
-constexpr double kMedianOfAbs = 0.6745;
-constexpr double kLeastScale = 0.5;
 /// Points on planes below which a window tells nothing, returns on a plane of a LiDAR, and the most that are looked at.
 constexpr std::size_t kLeastPoints = 200;
 constexpr int kLidarPointsOfPlane = 8;
@@ -141,10 +145,7 @@ double residualScale(const Placed& placed, const std::vector<Patch>& patches) {
     for (const auto i : patch.points)
       sizes.push_back(free * std::abs(patch.residual(placed.places[i])) / std::sqrt(placed.variances[i]));
   }
-  if (sizes.empty()) return 1.0;
-  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-  std::nth_element(sizes.begin(), middle, sizes.end());
-  return std::max(kLeastScale, *middle / kMedianOfAbs);
+  return std::max(kLeastScale, robustScale(sizes));
 }
 
 struct Equations {
@@ -181,7 +182,7 @@ void addPatch(const StartLayer& layer, const Placed& points, const Patch& patch,
   for (const auto i : patch.points) {
     const double sigma2 = scale * scale * points.variances[i];
     const double r = patch.residual(points.places[i]);
-    const double w = 1.0 / ((1.0 + r * r / (kCauchyWidth * kCauchyWidth * sigma2)) * sigma2 * layer.correlation);
+    const double w = cauchyWeight(r, sigma2) / (sigma2 * layer.correlation);
     const Eigen::Vector2d at = patch.along.transpose() * (points.places[i] - patch.mean);
     const Vector3d byPlane(1, at.x(), at.y());
     const ByUnknowns& J = points.derivatives[i];
@@ -219,20 +220,39 @@ Unknowns imuNoise(double duration_s, const ImuOptions& imu) {
   return noise;
 }
 
-/// Solves for the start in one window, beginning with the present one; false if the points do not suffice.
-bool solve(const StartState& prior, const std::vector<StartLayer>& layers, double voxelGrowth,
-           const std::vector<MotionStep>& steps, const OdometryOptions& options, NavState& start,
-           Information& covariance) {
+/// What is known of a start, and the data that improve it.
+struct Window {
+  const ImuBuffer& imu;
+  core::TimeNs end;
+  const std::vector<StartLayer>& layers;
+  const OdometryOptions& options;
+
+  std::vector<MotionStep> steps(const NavState& start, double share) const {
+    const double whole_s = core::secondsBetween(start.time, end);
+    return imu.steps(start.time, start.time + core::durationNs(share * whole_s), options.imu.maxGap_s,
+                     start.timeOffset_s);
+  }
+};
+
+struct Solution {
+  NavState start;
+  Information covariance = Information::Zero();
+};
+
+/// Improves the start by a stage's share of the window; false if the points do not suffice.
+bool solve(const StartState& prior, const Window& window, const Stage& stage, Solution& solution) {
+  const OdometryOptions& options = window.options;
+  const auto steps = window.steps(prior.state, stage.share);
   const Information priorCovariance = prior.covariance.block<kUnknowns, kUnknowns>(kVelocity, kVelocity);
   const Information priorInformation =
       (priorCovariance + kLeastVariance * Information::Identity()).ldlt().solve(Information::Identity());
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    const Motion motion(start, steps, options);
+    const Motion motion(solution.start, steps, options);
     Information A = priorInformation;
-    Unknowns b = priorInformation * errorBetween(prior.state, start).segment<kUnknowns>(kVelocity);
+    Unknowns b = priorInformation * errorBetween(prior.state, solution.start).segment<kUnknowns>(kVelocity);
     std::size_t points = 0;
-    for (const auto& layer : layers) {
-      const Equations seen = equationsOf(layer, motion, voxelGrowth);
+    for (const auto& layer : window.layers) {
+      const Equations seen = equationsOf(layer, motion, stage.voxelGrowth);
       // Each on its own: what one sensor pretends to know must not hide what another knows.
       const auto known =
           withoutPretended<kUnknowns>(seen.A, seen.b, seen.pretended, options.registration.degeneracyRatio);
@@ -241,14 +261,47 @@ bool solve(const StartState& prior, const std::vector<StartLayer>& layers, doubl
       points += seen.points;
     }
     if (points < kLeastPoints) return false;
-    covariance = A.ldlt().solve(Information::Identity());
-    const Unknowns step = -covariance * b;
+    solution.covariance = A.ldlt().solve(Information::Identity());
+    const Unknowns step = -solution.covariance * b;
     ErrorVector error = ErrorVector::Zero();
     error.segment<kUnknowns>(kVelocity) = step;
-    start = moved(start, error);
-    if (step.cwiseAbs().cwiseQuotient(covariance.diagonal().cwiseSqrt()).maxCoeff() < kSmallStep) break;
+    solution.start = moved(solution.start, error);
+    if (step.cwiseAbs().cwiseQuotient(solution.covariance.diagonal().cwiseSqrt()).maxCoeff() < kSmallStep) break;
   }
   return true;
+}
+
+std::optional<Solution> solveFrom(const StartState& prior, const Window& window) {
+  Solution solution{prior.state, Information::Zero()};
+  bool isSolved = false;
+  for (const Stage& stage : kStages) isSolved = solve(prior, window, stage, solution);
+  if (!isSolved) return std::nullopt;
+  return solution;
+}
+
+/// How many points a start puts on planes, those off their plane counted less.
+double support(const NavState& start, const Window& window) {
+  const Motion motion(start, window.steps(start, 1.0), window.options);
+  double sum = 0;
+  for (const auto& layer : window.layers) {
+    const Placed points = placed(layer, motion, layer.voxel_m);
+    for (const auto& patch : patchesOf(points, layer.minPoints))
+      for (const auto i : patch.points) sum += cauchyWeight(patch.residual(points.places[i]), points.variances[i]);
+  }
+  return sum;
+}
+
+/// The same belief for a vessel that makes this speed ahead.
+StartState underWay(const StartState& prior, double speed_mps, const core::Isometry& T_vehicle_imu) {
+  StartState start = prior;
+  const Vector3d up = -prior.state.gravity.normalized();
+  const Vector3d ahead = prior.state.R_odom_imu * T_vehicle_imu.linear().transpose() * Vector3d::UnitX();
+  start.state.velocity = up * up.dot(prior.state.velocity) + speed_mps * (ahead - up * up.dot(ahead));
+  auto covariance = start.covariance.block<3, 3>(kVelocity, kVelocity);
+  const double verticalVariance = up.dot(prior.covariance.block<3, 3>(kVelocity, kVelocity) * up);
+  covariance = kSpeedStepSigma_mps * kSpeedStepSigma_mps * Matrix3d::Identity();
+  covariance += (verticalVariance - kSpeedStepSigma_mps * kSpeedStepSigma_mps) * up * up.transpose();
+  return start;
 }
 
 }  // namespace
@@ -298,18 +351,25 @@ StartLayer seabedLayer(const std::vector<AcousticScan>& scans, const core::Isome
 
 std::optional<StartState> alignedStart(const StartState& prior, const ImuBuffer& imu, core::TimeNs end,
                                        const std::vector<StartLayer>& layers, const OdometryOptions& options) {
-  const double whole_s = core::secondsBetween(prior.state.time, end);
-  StartState start = prior;
-  Information covariance = Information::Zero();
-  bool isSolved = false;
-  for (const auto& window : kWindows) {
-    const core::TimeNs until = prior.state.time + core::durationNs(window.share * whole_s);
-    const auto steps = imu.steps(prior.state.time, until, options.imu.maxGap_s, prior.state.timeOffset_s);
-    isSolved = solve(prior, layers, window.voxelGrowth, steps, options, start.state, covariance);
+  const Window window{imu, end, layers, options};
+  const core::Isometry& T_vehicle_imu = imu.samples().front().T_vehicle_imu;
+  std::optional<Solution> best = solveFrom(prior, window);
+  double most = best ? kTellingSupport * support(best->start, window) : 0;
+  for (double speed = -options.water.speedSigma_mps; speed <= kMostSpeedSigmas * options.water.speedSigma_mps;
+       speed += kSpeedStep_mps) {
+    const auto found = solveFrom(underWay(prior, speed, T_vehicle_imu), window);
+    if (!found) continue;
+    const double sum = support(found->start, window);
+    if (sum <= most) continue;
+    best = found;
+    most = sum;
   }
-  if (!isSolved) return std::nullopt;
-  covariance += imuNoise(whole_s, options.imu).asDiagonal();
-  start.covariance.block<kUnknowns, kUnknowns>(kVelocity, kVelocity) = covariance;
+  if (!best) return std::nullopt;
+  StartState start = prior;
+  start.state = best->start;
+  start.covariance.block<kUnknowns, kUnknowns>(kVelocity, kVelocity) = best->covariance;
+  const Unknowns noise = imuNoise(core::secondsBetween(prior.state.time, end), options.imu);
+  start.covariance.block<kUnknowns, kUnknowns>(kVelocity, kVelocity) += noise.asDiagonal();
   return levelled(start);
 }
 

@@ -42,7 +42,11 @@ StartLayer seabedLayer(const std::vector<AcousticScan>& scans, const core::Isome
 /// only what moves it against the others of its voxel. What the noise of the normals pretends to know is taken off, as
 /// in a registration. This is the bundle adjustment with eliminated planes of Liu and Zhang (BALM, RA-L 2021), for one
 /// start instead of many poses. The window grows as the start gets better known.
+///
+/// The right speed is only found from nearby, so speeds ahead in steps of 1 m/s are tried beside the assumed one; the
+/// start that puts most points on planes is taken, the assumed one unless another is better by more than chance.
 /// @param prior  what is known without these points
+/// @param imu    not empty
 /// @return the start, level; nothing if the points do not suffice
 std::optional<StartState> alignedStart(const StartState& prior, const ImuBuffer& imu, core::TimeNs end,
                                        const std::vector<StartLayer>& layers, const OdometryOptions& options);

@@ -304,7 +304,7 @@ StartState refinedStart(const StartState& rough, const InertialFilter& early, co
   start.covariance.block<3, 3>(kVelocity, kVelocity) +=
       R_new_old * early.covariance().block<3, 3>(kVelocity, kVelocity) * R_new_old.transpose();
   if (options.water.velocityPrior && leavesSpeedOpen(start)) {
-    start.isAtRestByAssumption = true;
+    start.isSpeedOpen = true;
     assumeRest(start);
   }
   useHeave(T_imu_vehicle, imu, end.time, options, start);

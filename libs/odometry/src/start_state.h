@@ -12,9 +12,9 @@ struct StartState {
   ErrorMatrix covariance = ErrorMatrix::Zero();
   double heaveSigma_m = 0;  ///< of the heave that the IMU felt; 0: not known
   bool isStatic = false;    ///< the vehicle lies still at first
-  /// The scans of a rehearsal left the speed in some direction open, and with it all that would follow from it; a
-  /// vessel is then taken to lie about still.
-  bool isAtRestByAssumption = false;
+  /// The scans of a rehearsal left the speed in some direction open, and with it all that would follow from it. A
+  /// vessel is then taken to lie about still, unless the speed learnt is no such speed.
+  bool isSpeedOpen = false;
 };
 
 /// First belief with an IMU: up is the mean specific force from `start` to `end`, rotated back to `start` by the gyro.

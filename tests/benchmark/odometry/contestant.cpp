@@ -6,6 +6,9 @@ namespace s2s::bench {
 
 namespace {
 
+/// As in the mapper; stereo needs the motion of the last tenths of a second.
+constexpr double kTrajectoryMemory_s = 5.0;
+
 double threadSeconds() {
   timespec now{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
@@ -61,7 +64,7 @@ void OurOdometry::takeEnd() {
 
 void OurOdometry::drain() {
   while (auto result = odometry_.next()) {
-    odometry_.forgetTrajectoryBefore(result->time);
+    odometry_.forgetTrajectoryBefore(result->time - core::durationNs(kTrajectoryMemory_s));
     keep(std::move(*result));
   }
 }
