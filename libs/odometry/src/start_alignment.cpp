@@ -291,6 +291,13 @@ double support(const NavState& start, const Window& window) {
   return sum;
 }
 
+std::vector<double> speedsAhead(const WaterOptions& water) {
+  std::vector<double> speeds{-water.speedSigma_mps};
+  while (speeds.back() + kSpeedStep_mps <= kMostSpeedSigmas * water.speedSigma_mps)
+    speeds.push_back(speeds.back() + kSpeedStep_mps);
+  return speeds;
+}
+
 /// The same belief for a vessel that makes this speed ahead.
 StartState underWay(const StartState& prior, double speed_mps, const core::Isometry& T_vehicle_imu) {
   StartState start = prior;
@@ -355,8 +362,7 @@ std::optional<StartState> alignedStart(const StartState& prior, const ImuBuffer&
   const core::Isometry& T_vehicle_imu = imu.samples().front().T_vehicle_imu;
   std::optional<Solution> best = solveFrom(prior, window);
   double most = best ? kTellingSupport * support(best->start, window) : 0;
-  for (double speed = -options.water.speedSigma_mps; speed <= kMostSpeedSigmas * options.water.speedSigma_mps;
-       speed += kSpeedStep_mps) {
+  for (const double speed : speedsAhead(options.water)) {
     const auto found = solveFrom(underWay(prior, speed, T_vehicle_imu), window);
     if (!found) continue;
     const double sum = support(found->start, window);
