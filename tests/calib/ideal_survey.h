@@ -15,6 +15,9 @@ struct IdealSurvey {
   CalibrationEvidence evidence;
 };
 
+/// Time of a survey's first pose.
+constexpr core::TimeNs kStart = 1'733'400'000'000'000'000;
+
 struct IdealSurveyOptions {
   bool relief = true;  ///< else a level bed
   bool turns = true;   ///< a figure eight sailed both ways, else a straight run
@@ -44,6 +47,17 @@ inline core::Isometry poseAt(const IdealSurveyOptions& o, double t_s) {
   const double sway = o.waves ? 0.04 : 0;
   return core::isometryFromXyzYpr(x, y, 0.5 * sway * std::sin(2.9 * t_s), yaw, sway * std::sin(3.3 * t_s),
                                   sway * std::cos(4.1 * t_s));
+}
+
+/// Elevation [rad] at which the arc of a range and a bearing meets the bed, from a guess.
+inline double elevationOf(const IdealSurveyOptions& o, const core::Isometry& T, double r, double bearing,
+                          double guess) {
+  const auto height = [&](double e) {
+    const Eigen::Vector3d p = T * sonar::pointAt({r, bearing, e}, obs::BearingModel::Azimuth);
+    return p.z() - reliefAt(o, p.x(), p.y());
+  };
+  for (int k = 0; k < 4; ++k) guess -= height(guess) * 1e-3 / (height(guess + 1e-3) - height(guess));
+  return guess;
 }
 
 /// Range at which the ray of a bearing and an elevation meets the bed; 0 if it does not within 12 m.
@@ -82,7 +96,6 @@ inline double wallRange(const IdealSurveyOptions& o, const core::Isometry& T_map
 }
 
 inline IdealSurvey idealSurvey(const IdealSurveyOptions& o) {
-  constexpr core::TimeNs kStart = 1'733'400'000'000'000'000;
   IdealSurvey survey;
   auto& nominal = survey.nominal;
   nominal[SonarId::Horizontal].T_vehicle_sonar = core::isometryFromXyzYpr(-1.1, 0, -0.45, 0, M_PI / 4, 0);

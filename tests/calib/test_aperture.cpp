@@ -10,17 +10,6 @@ namespace {
 using test::IdealSurveyOptions;
 
 constexpr double kDegree = M_PI / 180;
-constexpr core::TimeNs kStart = 1'733'400'000'000'000'000;  // of test::idealSurvey
-
-/// Elevation at which an arc meets the bed, from a guess.
-double elevationOf(const IdealSurveyOptions& o, const core::Isometry& T, double r, double bearing, double guess) {
-  const auto height = [&](double e) {
-    const Eigen::Vector3d p = T * sonar::pointAt({r, bearing, e}, obs::BearingModel::Azimuth);
-    return p.z() - test::reliefAt(o, p.x(), p.y());
-  };
-  for (int k = 0; k < 4; ++k) guess -= height(guess) * 1e-3 / (height(guess + 1e-3) - height(guess));
-  return guess;
-}
 
 /// Pings of a bed through an aperture that is 0.7 deg wider on both sides than the device says and falls off as a real
 /// one does, with speckle, noise that rises with range and an echo that does, too.
@@ -31,7 +20,7 @@ void addProfiles(const IdealSurveyOptions& o, test::IdealSurvey& survey) {
   for (double t_s = 0; t_s < o.duration_s; t_s += 0.2) {
     const core::Isometry T = test::poseAt(o, t_s) * survey.truth[SonarId::Horizontal].T_vehicle_sonar;
     AperturePing ping;
-    ping.time = kStart + core::durationNs(t_s + o.late_h_s);
+    ping.time = test::kStart + core::durationNs(t_s + o.late_h_s);
     ping.firstRange_m = 1.01;
     ping.step_m = 0.02;
     for (int b = -10; b <= 10; ++b) {
@@ -44,7 +33,7 @@ void addProfiles(const IdealSurveyOptions& o, test::IdealSurvey& survey) {
         const double r = ping.binRange_m(bin);
         double echo = 0;
         if (nearest_m > 0 && r > nearest_m && elevation < 2 * half) {
-          elevation = elevationOf(o, T, r, bearing, elevation);
+          elevation = test::elevationOf(o, T, r, bearing, elevation);
           echo = 9000 * (1 + 0.1 * (r - 4)) / (1 + std::pow(elevation / half, 16));
         }
         strip.strength.push_back(static_cast<std::uint16_t>(std::min(65535.0, (echo + 25 * r * r) * speckle(random))));

@@ -11,17 +11,6 @@ namespace {
 using test::IdealSurveyOptions;
 
 constexpr double kDegree = M_PI / 180;
-constexpr core::TimeNs kStart = 1'733'400'000'000'000'000;  // of test::idealSurvey
-
-/// Elevation at which an arc meets the bed, from a guess.
-double elevationOf(const IdealSurveyOptions& o, const core::Isometry& T, double r, double bearing, double guess) {
-  const auto height = [&](double e) {
-    const Eigen::Vector3d p = T * sonar::pointAt({r, bearing, e}, obs::BearingModel::Azimuth);
-    return p.z() - test::reliefAt(o, p.x(), p.y());
-  };
-  for (int k = 0; k < 4; ++k) guess -= height(guess) * 1e-3 / (height(guess + 1e-3) - height(guess));
-  return guess;
-}
 
 /// Pings of a bed with texture, seen exactly as the measurement model says, with speckle of twice its contrast.
 void addTexture(const IdealSurveyOptions& o, test::IdealSurvey& survey) {
@@ -32,7 +21,7 @@ void addTexture(const IdealSurveyOptions& o, test::IdealSurvey& survey) {
     const double t_s = 0.1 * n;
     const core::Isometry T = test::poseAt(o, t_s) * survey.truth[SonarId::Horizontal].T_vehicle_sonar;
     TexturePing ping;
-    ping.time = kStart + core::durationNs(t_s + o.late_h_s);
+    ping.time = test::kStart + core::durationNs(t_s + o.late_h_s);
     ping.firstRange_m = 1;
     ping.step_m = 0.03;
     for (int b = -48; b <= 48; ++b) {
@@ -44,7 +33,7 @@ void addTexture(const IdealSurveyOptions& o, test::IdealSurvey& survey) {
         beam.firstBin = static_cast<std::uint16_t>((nearest - ping.firstRange_m) / ping.step_m + 1);
         double elevation = -half;
         for (std::size_t bin = beam.firstBin; bin < beam.firstBin + 90U; ++bin) {
-          elevation = elevationOf(o, T, ping.binRange_m(bin), beam.bearing_rad, elevation);
+          elevation = test::elevationOf(o, T, ping.binRange_m(bin), beam.bearing_rad, elevation);
           if (!(std::abs(elevation) < half)) break;
           const Eigen::Vector3d p =
               T * sonar::pointAt({ping.binRange_m(bin), beam.bearing_rad, elevation}, obs::BearingModel::Azimuth);
